@@ -12,14 +12,15 @@
 namespace srisp {
 
 class Model;
+struct Pipeline;
 
 enum class Direction {
-    reverse,   ///< display-encoded sRGB → RAW-like camera RGB ("unprocess")
-    forward    ///< RAW-like camera RGB → display-encoded sRGB ("process")
+    reverse, ///< display-encoded sRGB → RAW-like camera RGB ("unprocess")
+    forward  ///< RAW-like camera RGB → display-encoded sRGB ("process")
 };
 
 struct ApplyOptions {
-    int threads = 0;   ///< 0: all of OpenImageIO's threads; 1: the calling thread only
+    int threads = 0; ///< 0: all of OpenImageIO's threads; 1: the calling thread only
     /// Called from the calling thread with the part done (0 … 1); returning false cancels.
     std::function<bool(float)> progress;
 };
@@ -36,10 +37,11 @@ public:
     /// (pointwise).
     int halo() const;
 
-    /// Computes `roi` of the image. `source` is any part of the whole image, which is `full_width` × `full_height` pixels;
-    /// its pixel (0, 0) is (source_x, source_y) of the whole. It must hold `roi` and the halo around it as far as the whole
-    /// image goes. `target` is the image of `roi` alone. Values in [0,1] in and out. `target` may be the memory of `source`.
-    /// Same bits for any number of threads, any tiling and any region. Errors: sizes that do not fit; cancelled.
+    /// Computes `roi` of the image. `source` is any part of the whole image, which is `full_width` × `full_height`
+    /// pixels; its pixel (0, 0) is (source_x, source_y) of the whole. It must hold `roi` and the halo around it as far
+    /// as the whole image goes. `target` is the image of `roi` alone. Values in [0,1] in and out. `target` may be the
+    /// memory of `source`. Same bits for any number of threads, any tiling and any region. Errors: sizes that do not
+    /// fit; cancelled.
     Status run(ImageView source, int source_x, int source_y, int full_width, int full_height, Roi roi,
                MutableImageView target, const ApplyOptions& options = {}) const;
 
@@ -47,9 +49,8 @@ public:
     Status run(ImageView source, MutableImageView target, const ApplyOptions& options = {}) const;
 
 private:
-    struct State;
-    explicit Applier(std::unique_ptr<const State> state);
-    std::unique_ptr<const State> m_state;
+    explicit Applier(std::unique_ptr<const Pipeline> pipeline);
+    std::unique_ptr<const Pipeline> m_pipeline;
 };
 
-}  // namespace srisp
+} // namespace srisp

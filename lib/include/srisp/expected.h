@@ -45,4 +45,4 @@ private:
     bool m_failed = false;
 };
 
-}  // namespace srisp
+} // namespace srisp

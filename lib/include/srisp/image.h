@@ -8,15 +8,15 @@ namespace srisp {
 
 /// A view of three interleaved float32 channels (R, G, B adjacent); it owns nothing.
 template<class Float> struct BasicImageView {
-    Float* data;               ///< the R of pixel (0, 0)
-    int width, height;         ///< pixels
-    std::ptrdiff_t x_stride;   ///< floats from a pixel to its right neighbour (3 for RGB, 4 inside RGBA)
-    std::ptrdiff_t y_stride;   ///< floats from a row to the next one
+    Float* data;             ///< the R of pixel (0, 0)
+    int width, height;       ///< pixels
+    std::ptrdiff_t x_stride; ///< floats from a pixel to its right neighbour (3 for RGB, 4 inside RGBA)
+    std::ptrdiff_t y_stride; ///< floats from a row to the next one
 
     Float* pixel(int x, int y) const { return data + x * x_stride + y * y_stride; }
     operator BasicImageView<const Float>() const { return { data, width, height, x_stride, y_stride }; }
 };
-using ImageView      = BasicImageView<const float>;
+using ImageView = BasicImageView<const float>;
 using MutableImageView = BasicImageView<float>;
 
 /// A half-open rectangle of pixels: x0 ≤ x < x1, y0 ≤ y < y1.
@@ -38,4 +38,4 @@ struct Thumbnail {
     }
 };
 
-}  // namespace srisp
+} // namespace srisp

@@ -10,10 +10,11 @@
 
 namespace srisp {
 
-/// Writes into `spec` what a result says of itself, in the forms that survive EXR, TIFF, PNG and JPEG: a plain mark that
-/// the image is synthetic, parameters and hashes (ImageDescription as one JSON line, and `unprocess:*`), the reference's
-/// camera facts (XYZ→camera matrix, adoptedNeutral) and a colour-space name that no program takes for linear sRGB.
-/// `reference` may be null where parameters were given instead of one. `Direction::forward` marks an sRGB result.
+/// Writes into `spec` what a result says of itself, in the forms that survive EXR, TIFF, PNG and JPEG: a plain mark
+/// that the image is synthetic, parameters and hashes (ImageDescription as one JSON line, and `unprocess:*`), the
+/// reference's camera facts (XYZ→camera matrix, adoptedNeutral) and a colour-space name that no program takes for
+/// linear sRGB. `reference` may be null where parameters were given instead of one. `Direction::forward` marks an sRGB
+/// result.
 SRISP_API void record_result(OIIO::ImageSpec& spec, const Parameters& parameters, const Reference* reference,
                              Direction direction);
 
@@ -24,4 +25,4 @@ SRISP_API Expected<Parameters> recorded_parameters(const OIIO::ImageSpec& spec, 
 /// Whether the image says that srisp made it by `Direction::reverse`.
 SRISP_API bool is_unprocessed(const OIIO::ImageSpec& spec);
 
-}  // namespace srisp
+} // namespace srisp

@@ -17,9 +17,10 @@ struct ModelData;
 /// it is loaded. Immutable, so it may be used by any number of threads.
 class SRISP_API Model {
 public:
-    /// Loads a model by path (a name with '/' or ending in `.safetensors`) or by name (`default`, `pointwise`). Names are
-    /// looked for in the folders of SRISP_MODEL_PATH (colon-separated), then in `share/srisp/models` beside this library
-    /// (install tree or build tree). Fails with one message for a missing, truncated, malformed or degenerate file.
+    /// Loads a model by path (a name with '/' or ending in `.safetensors`) or by name (`default`, `pointwise`). Names
+    /// are looked for in the folders of SRISP_MODEL_PATH (colon-separated), then in `share/srisp/models` beside this
+    /// library (install tree or build tree). Fails with one message for a missing, truncated, malformed or degenerate
+    /// file.
     static Expected<std::shared_ptr<const Model>> load(const std::string& name_or_path);
 
     /// The names that `load` finds now, sorted.
@@ -29,12 +30,12 @@ public:
     Model(const Model&) = delete;
     Model& operator=(const Model&) = delete;
 
-    const std::string& name() const;   ///< base name of the file, without folder and extension
-    const std::string& path() const;   ///< the file that was read
-    const std::string& hash() const;   ///< "xxh128:" and 32 hex digits, of the file's bytes
-    int kernel_size() const;           ///< of the tone map: 3 (spatial) or 1 (pointwise)
-    int dictionary_size() const;       ///< atoms per dictionary
-    const std::map<std::string, std::string>& metadata() const;   ///< `__metadata__` of the file
+    const std::string& name() const;                            ///< base name of the file, without folder and extension
+    const std::string& path() const;                            ///< the file that was read
+    const std::string& hash() const;                            ///< "xxh128:" and 32 hex digits, of the file's bytes
+    int kernel_size() const;                                    ///< of the tone map: 3 (spatial) or 1 (pointwise)
+    int dictionary_size() const;                                ///< atoms per dictionary
+    const std::map<std::string, std::string>& metadata() const; ///< `__metadata__` of the file
 
     /// For this library's own use.
     const ModelData& data() const { return *m_data; }
@@ -44,4 +45,4 @@ private:
     std::unique_ptr<const ModelData> m_data;
 };
 
-}  // namespace srisp
+} // namespace srisp

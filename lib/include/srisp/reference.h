@@ -16,10 +16,10 @@ namespace srisp {
 /// What a RAW file says of its camera and exposure. Levels are in the file's own units. Zero or empty: not known.
 struct CameraFacts {
     std::string make, model;
-    int width = 0, height = 0;     ///< active area as stored (before orientation), pixels
-    int orientation = 1;           ///< EXIF orientation of the stored pixels
-    std::string cfa_pattern;       ///< "RGGB", … from the active area's top left; "" for demosaiced (LinearRaw) images
-    std::array<float, 4> black_level {};   ///< mean black level of R, G (first green), B, second green
+    int width = 0, height = 0; ///< active area as stored (before orientation), pixels
+    int orientation = 1;       ///< EXIF orientation of the stored pixels
+    std::string cfa_pattern;   ///< "RGGB", … from the active area's top left; "" for demosaiced (LinearRaw) images
+    std::array<float, 4> black_level{}; ///< mean black level of R, G (first green), B, second green
     float white_level = 0;
     /// XYZ → camera RGB, row-major 3×3, with the EXIF LightSource code of its calibration illuminant (0: not known).
     struct ColorMatrix {
@@ -27,34 +27,34 @@ struct CameraFacts {
         int illuminant = 0;
     };
     std::vector<ColorMatrix> color_matrices;
-    std::array<float, 3> as_shot_neutral {};   ///< camera RGB of a neutral surface, G = 1
+    std::array<float, 3> as_shot_neutral{}; ///< camera RGB of a neutral surface, G = 1
     float iso = 0, exposure_time_s = 0, f_number = 0;
-    std::vector<double> noise_profile;   ///< DNG NoiseProfile: pairs of shot and read noise, of values in [0,1]
+    std::vector<double> noise_profile; ///< DNG NoiseProfile: pairs of shot and read noise, of values in [0,1]
 };
 
 /// A camera in a light, as one image showed it.
 struct Reference {
-    std::string name;      ///< base name of the file
+    std::string name; ///< base name of the file
     std::string path;
-    std::string hash;      ///< "xxh128:" and 32 hex digits, of the file's bytes
-    Thumbnail thumbnail;   ///< linear camera RGB in [0,1], upright
+    std::string hash;    ///< "xxh128:" and 32 hex digits, of the file's bytes
+    Thumbnail thumbnail; ///< linear camera RGB in [0,1], upright
     CameraFacts facts;
-    std::vector<std::string> notes;   ///< what was ignored or assumed, one sentence each
+    std::vector<std::string> notes; ///< what was ignored or assumed, one sentence each
 };
 
-/// Decodes a reference: any RAW file that LibRaw decodes to RGB; an EXR or TIFF that srisp wrote; or any float EXR, which
-/// is taken as camera RGB in [0,1]. Black is subtracted per CFA position, divided by (white − black), clipped to [0,1];
-/// the thumbnail needs no demosaicing. Threads: safe. Refused, each with its own message: display-encoded images, filters
-/// of other than three colours, Foveon, monochrome, X-Trans where LibRaw does not decode it, black frames (98th percentile
-/// below 0.005), truncated files, empty areas. [P 4.2; DNG 1.4]
+/// Decodes a reference: any RAW file that LibRaw decodes to RGB; an EXR or TIFF that srisp wrote; or any float EXR,
+/// which is taken as camera RGB in [0,1]. Black is subtracted per CFA position, divided by (white − black), clipped to
+/// [0,1]; the thumbnail needs no demosaicing. Threads: safe. Refused, each with its own message: display-encoded
+/// images, filters of other than three colours, Foveon, monochrome, X-Trans where LibRaw does not decode it, black
+/// frames (98th percentile below 0.005), truncated files, empty areas. [P 4.2; DNG 1.4]
 SRISP_API Expected<std::shared_ptr<const Reference>> load_reference(const std::string& path);
 
-/// Chooses one file where `pattern` names several: a folder, a glob, or a list (`a.dng;b.dng`); a plain file is itself. The
-/// choice depends on `seed` and `photo_name` only (the base name is used), not on the order in which photos come.
+/// Chooses one file where `pattern` names several: a folder, a glob, or a list (`a.dng;b.dng`); a plain file is itself.
+/// The choice depends on `seed` and `photo_name` only (the base name is used), not on the order in which photos come.
 SRISP_API Expected<std::string> choose_reference(const std::string& pattern, std::uint64_t seed,
                                                  const std::string& photo_name);
 
 /// `load_reference` with a cache for the whole process: key is path, inode, size and modification time in ns.
 SRISP_API Expected<std::shared_ptr<const Reference>> load_reference_cached(const std::string& path);
 
-}  // namespace srisp
+} // namespace srisp

@@ -11,8 +11,8 @@ namespace srisp {
 class Model;
 
 /// Chooses the parameters that turn the photo into what the camera of the reference would have recorded in its light.
-/// `source`: display-encoded photo; `reference`: linear RAW, both upright, values in [0,1]; NaN is an error. Sets all but
-/// `reference_name` and `reference_hash`. Same bits for the same input on one machine. [P 3.1]
+/// `source`: display-encoded photo; `reference`: linear RAW, both upright, values in [0,1]; NaN is an error. Sets all
+/// but `reference_name` and `reference_hash`. Same bits for the same input on one machine. [P 3.1]
 SRISP_API Expected<Parameters> select(const Model& model, const Thumbnail& source, const Thumbnail& reference);
 
-}  // namespace srisp
+} // namespace srisp

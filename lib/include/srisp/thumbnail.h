@@ -21,7 +21,8 @@ public:
 
     /// Adds the next `rows.height` rows; `rows.width` is the width of the image.
     void add_rows(ImageView rows);
-    /// The thumbnail once all rows were added, turned upright: `orientation` is the EXIF orientation (1 … 8) of the rows.
+    /// The thumbnail once all rows were added, turned upright: `orientation` is the EXIF orientation (1 … 8) of the
+    /// rows.
     Thumbnail finish(int orientation) const;
 
 private:
@@ -35,4 +36,4 @@ SRISP_API Thumbnail make_thumbnail(ImageView image, int orientation = 1);
 /// Turns a thumbnail upright: what an EXIF `orientation` (1 … 8; others are taken as 1) asks for.
 SRISP_API Thumbnail oriented(const Thumbnail& thumbnail, int orientation);
 
-}  // namespace srisp
+} // namespace srisp

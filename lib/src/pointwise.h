@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "convolution.h" // kRowSlack
+#include "matrix3.h"
+
+namespace srisp {
+
+/// Three planes (R, G, B) of one row or one image.
+struct Planes {
+    float* data;
+    std::ptrdiff_t stride; ///< floats from one plane to the next
+
+    float* plane(int channel) const { return data + channel * stride; }
+};
+
+// The blocks of the pipeline that look at one pixel at a time. `count` pixels, from `in` to `out`, which may be
+// the same planes; vectorised, dispatched at run time. Up to kRowSlack floats past the end of each plane are read and
+// written (finite values, which do not matter), so rows come with that much room. pow is within 1e-6 (relative).
+
+/// clamp01(v)
+void clamp01(Planes in, Planes out, std::size_t count);
+/// max(v, floor)^exponent + offset; floor > 0
+void power(Planes in, Planes out, std::size_t count, float exponent, float floor, float offset);
+/// clamp01(M v)
+void color_transform(Planes in, Planes out, std::size_t count, const Matrix3& matrix);
+/// clamp01(v · gains)
+void multiply(Planes in, Planes out, std::size_t count, const float gains[3]);
+/// Highlight-preserving inverse gain, scales s = 1 / g, unclamped (Brooks et al. 2019): v · max(m + (1 − m) s, s) with
+/// m = clamp01((mean(v) − 0.9) / 0.1)².
+void inverse_gain(Planes in, Planes out, std::size_t count, const float scales[3]);
+
+/// The same in plain C++ with std::pow: what the vectorised forms are tested against.
+namespace scalar {
+void power(Planes in, Planes out, std::size_t count, float exponent, float floor, float offset);
+void color_transform(Planes in, Planes out, std::size_t count, const Matrix3& matrix);
+void multiply(Planes in, Planes out, std::size_t count, const float gains[3]);
+void inverse_gain(Planes in, Planes out, std::size_t count, const float scales[3]);
+} // namespace scalar
+
+} // namespace srisp

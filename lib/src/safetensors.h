@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <srisp/expected.h>
+
+namespace srisp {
+
+/// A tensor as float32, row-major.
+struct Tensor {
+    std::vector<std::int64_t> shape;
+    std::vector<float> values;
+};
+
+/// A safetensors file: named tensors and the texts of `__metadata__`.
+struct SafeTensors {
+    std::map<std::string, Tensor> tensors;
+    std::map<std::string, std::string> metadata;
+};
+
+/// "[3, 24]", for messages.
+std::string shape_text(const std::vector<std::int64_t>& shape);
+
+/// Parses a safetensors file that is in memory: F32, F16 and BF16 tensors. `where` starts every message ("model
+/// 'm.safetensors'"). Errors: header length beyond the file, not JSON, duplicate names, offsets outside the file, out
+/// of order, overlapping or with gaps, sizes that do not match shape and type, other types.
+/// (https://github.com/huggingface/safetensors, format)
+Expected<SafeTensors> parse_safetensors(const std::string& bytes, const std::string& where);
+
+/// Reads a whole file of at most `max_bytes`; `where` as above.
+Expected<std::string> read_file(const std::string& path, std::uint64_t max_bytes, const std::string& where);
+
+} // namespace srisp
