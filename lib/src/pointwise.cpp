@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pointwise.cpp"
@@ -64,15 +66,34 @@ HWY_INLINE V exp2_of(V n, V r)
     return hn::Mul(p, hn::BitCast(d, hn::ShiftLeft<23>(exponent)));
 }
 
-/// v^exponent, v > 0 and normal. `exponent · e` is split exactly by the FMA: only the fraction carries an error.
-HWY_INLINE V pow_of(V v, V exponent)
+/// An exponent in two parts: `high` has 12 bits, so that its product with the exponent of a float is exact, FMA or not.
+struct SplitExponent {
+    V whole, high, low;
+
+    explicit SplitExponent(float exponent)
+    {
+        const D d;
+        std::uint32_t bits;
+        std::memcpy(&bits, &exponent, sizeof bits);
+        bits &= 0xfffff000u;
+        float high_part;
+        std::memcpy(&high_part, &bits, sizeof bits);
+        whole = hn::Set(d, exponent);
+        high = hn::Set(d, high_part);
+        low = hn::Set(d, exponent - high_part);
+    }
+};
+
+/// v^exponent, v > 0 and normal. The integer part of log2 costs no precision; only the fraction carries an error.
+HWY_INLINE V pow_of(V v, const SplitExponent& exponent)
 {
     const D d;
     V e;
     const V fraction = split_log2(v, e);
-    const V product = hn::MulAdd(exponent, e, hn::Mul(exponent, fraction));
-    const V n = hn::Min(hn::Max(hn::Round(product), hn::Set(d, -126.0f)), hn::Set(d, 127.0f));
-    const V r = hn::MulAdd(exponent, fraction, hn::MulSub(exponent, e, n));
+    const V small = hn::MulAdd(exponent.whole, fraction, hn::Mul(exponent.low, e));
+    const V large = hn::Mul(exponent.high, e);
+    const V n = hn::Min(hn::Max(hn::Round(hn::Add(large, small)), hn::Set(d, -126.0f)), hn::Set(d, 127.0f));
+    const V r = hn::Add(hn::Sub(large, n), small);
     return exp2_of(n, hn::Min(hn::Max(r, hn::Set(d, -1.0f)), hn::Set(d, 1.0f)));
 }
 
@@ -87,7 +108,8 @@ void clamp01(Planes in, Planes out, std::size_t count)
 void power(Planes in, Planes out, std::size_t count, float exponent, float floor, float offset)
 {
     const D d;
-    const V e = hn::Set(d, exponent), lowest = hn::Set(d, floor), shift = hn::Set(d, offset);
+    const SplitExponent e(exponent);
+    const V lowest = hn::Set(d, floor), shift = hn::Set(d, offset);
     for (int c = 0; c < 3; ++c)
         for_each_vector(count, [&](std::size_t x) {
             const V v = hn::Max(hn::LoadU(d, in.plane(c) + x), lowest);

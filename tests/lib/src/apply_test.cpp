@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <doctest/doctest.h>
+#include <srisp/apply.h>
+#include <srisp/model.h>
+
+#include "image_compare.h"
+#include "random_model.h"
+
+using namespace srisp;
+
+namespace {
+
+struct Image {
+    int width, height, channels = 3;
+    std::vector<float> values = std::vector<float>(std::size_t(width) * height * channels);
+
+    MutableImageView view() { return { values.data(), width, height, channels, std::ptrdiff_t(channels) * width }; }
+};
+
+Image random_image(int width, int height)
+{
+    Image image{ width, height };
+    Random random(width * 1000 + height);
+    for (float& value : image.values)
+        value = random.uniform(0, 1);
+    return image;
+}
+
+/// A model, and parameters of it that look like those of a photo.
+struct Fixture {
+    ScratchFolder folder;
+    std::shared_ptr<const Model> model;
+    Parameters parameters;
+
+    explicit Fixture(int kernel_size = 3)
+    {
+        Expected<std::shared_ptr<const Model>> loaded =
+            Model::load(random_model(kernel_size, 1).write(folder.path("random.safetensors")));
+        REQUIRE_MESSAGE(loaded, (loaded ? "" : loaded.error().message));
+        model = *loaded;
+        parameters.model_hash = model->hash();
+        parameters.tone_weights.fill({ 0.1f, 0.3f, 0.2f, 0.25f, 0.15f });
+        parameters.gamma = 2.2f;
+        parameters.color = { 1.6f, -0.4f, -0.2f, -0.3f, 1.5f, -0.2f, 0.05f, -0.6f, 1.55f };
+        parameters.white_balance = { 2.1f, 1, 1.6f };
+        parameters.gain = 1.3f;
+    }
+
+    std::shared_ptr<const Applier> applier(Direction direction = Direction::reverse) const
+    {
+        Expected<std::shared_ptr<const Applier>> result = Applier::create(*model, parameters, direction);
+        REQUIRE_MESSAGE(result, (result ? "" : result.error().message));
+        return *result;
+    }
+};
+
+Image applied(const Applier& applier, Image source, int threads = 1)
+{
+    Image target{ source.width, source.height };
+    ApplyOptions options;
+    options.threads = threads;
+    const Status status = applier.run(source.view(), target.view(), options);
+    REQUIRE_MESSAGE(status, status.error().message);
+    return target;
+}
+
+/// The tone map written down once more as the method says it, in double and without tiles.
+std::vector<double> tone_mapped(const Fixture& fixture, const Image& image, const ModelFile& file)
+{
+    std::vector<double> v(image.values.begin(), image.values.end());
+    std::vector<double> in = v;
+    int inputs = 3;
+    for (int l = 0; l < 4; ++l) {
+        const std::string name = "dictionary.tone_reverse." + std::to_string(l);
+        const std::vector<float>& weight = file.tensors.at(name + ".weight").values;
+        const std::vector<float>& bias = file.tensors.at(name + ".bias").values;
+        const int outputs = l < 3 ? 32 : 3;
+        std::vector<double> out(std::size_t(image.width) * image.height * outputs);
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x)
+                for (int o = 0; o < outputs; ++o) {
+                    double sum = 0;
+                    for (int k = 0; k < 5; ++k) {
+                        double atom = bias[k * outputs + o];
+                        for (int i = 0; i < inputs; ++i)
+                            for (int t = 0; t < 9; ++t) {
+                                const int sx = std::clamp(x + t % 3 - 1, 0, image.width - 1);
+                                const int sy = std::clamp(y + t / 3 - 1, 0, image.height - 1);
+                                atom += weight[((k * outputs + o) * inputs + i) * 9 + t] *
+                                        in[(std::size_t(sy) * image.width + sx) * inputs + i];
+                            }
+                        sum += fixture.parameters.tone_weights[l][k] * atom;
+                    }
+                    out[(std::size_t(y) * image.width + x) * outputs + o] = l < 3 ? std::max(sum, 0.0) : sum;
+                }
+        in = out;
+        inputs = outputs;
+    }
+    for (std::size_t i = 0; i < v.size(); ++i)
+        v[i] = std::clamp(v[i] + in[i], 0.0, 1.0);
+    return v;
+}
+
+} // namespace
+
+TEST_CASE("the tone map equals a plain one in double, borders included")
+{
+    Fixture fixture;
+    fixture.parameters.color = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+    fixture.parameters.gamma = fixture.parameters.gain = 1;
+    fixture.parameters.white_balance = { 1, 1, 1 };
+    const Image source = random_image(7, 11);
+    const Difference difference =
+        compare(applied(*fixture.applier(), source).values, tone_mapped(fixture, source, random_model(3, 1)));
+    INFO(difference.text);
+    CHECK(difference.largest <= 1e-5);
+}
+
+TEST_CASE("every size from 1 × 1 gives the same bits with any number of threads")
+{
+    const Fixture fixture;
+    for (const Direction direction : { Direction::reverse, Direction::forward }) {
+        const auto applier = fixture.applier(direction);
+        for (const auto& [width, height] :
+             { std::pair(1, 1), std::pair(1, 300), std::pair(1000, 1), std::pair(2, 3), std::pair(9, 9),
+               std::pair(187, 20), std::pair(189, 33), std::pair(401, 270) }) {
+            const Image source = random_image(width, height);
+            const Image one = applied(*applier, source, 1);
+            CHECK(std::all_of(one.values.begin(), one.values.end(), [](float v) { return v >= 0 && v <= 1; }));
+            for (const int threads : { 0, 2, 3, 8 }) {
+                INFO(width, " × ", height, ", threads ", threads);
+                CHECK(applied(*applier, source, threads).values == one.values);
+            }
+        }
+    }
+}
+
+TEST_CASE("any region of interest, from any part of the image, has the bits of the whole")
+{
+    for (const int kernel_size : { 3, 1 }) {
+        const Fixture fixture(kernel_size);
+        const auto applier = fixture.applier();
+        Image source = random_image(300, 150);
+        Image whole = applied(*applier, source);
+        Random random(5);
+        for (int i = 0; i < 40; ++i) {
+            const int x0 = random.below(300), y0 = random.below(150);
+            const Roi roi{ x0, x0 + 1 + random.below(300 - x0), y0, y0 + 1 + random.below(150 - y0) };
+            const int halo = applier->halo();
+            const int sx = std::max(roi.x0 - halo, 0), sy = std::max(roi.y0 - halo, 0);
+            const ImageView part{ source.view().pixel(sx, sy), std::min(roi.x1 + halo, 300) - sx,
+                                  std::min(roi.y1 + halo, 150) - sy, 3, 900 };
+            Image target{ roi.x1 - roi.x0, roi.y1 - roi.y0 };
+            REQUIRE(applier->run(part, sx, sy, 300, 150, roi, target.view()));
+            bool same = true;
+            for (int y = 0; y < target.height; ++y)
+                same &= std::equal(target.view().pixel(0, y), target.view().pixel(0, y) + 3 * target.width,
+                                   whole.view().pixel(roi.x0, roi.y0 + y));
+            INFO("region [", roi.x0, ", ", roi.x1, ") × [", roi.y0, ", ", roi.y1, "), kernel ", kernel_size);
+            CHECK(same);
+        }
+    }
+}
+
+TEST_CASE("in place equals a copy, RGBA strides too")
+{
+    const Fixture fixture;
+    for (const Direction direction : { Direction::reverse, Direction::forward }) {
+        const auto applier = fixture.applier(direction);
+        Image source = random_image(230, 700); // several bands of 256 rows
+        const Image expected = applied(*applier, source);
+        Image rgba{ 230, 700, 4 };
+        for (int y = 0; y < 700; ++y)
+            for (int x = 0; x < 230; ++x)
+                std::copy_n(source.view().pixel(x, y), 3, rgba.view().pixel(x, y));
+        for (const int threads : { 1, 3 }) {
+            ApplyOptions options;
+            options.threads = threads;
+            Image in_place = source;
+            REQUIRE(applier->run(in_place.view(), in_place.view(), options));
+            CHECK(in_place.values == expected.values);
+        }
+        REQUIRE(applier->run(rgba.view(), rgba.view()));
+        bool same = true;
+        for (int y = 0; y < 700; ++y)
+            for (int x = 0; x < 230; ++x)
+                for (int c = 0; c < 3; ++c)
+                    same &= rgba.view().pixel(x, y)[c] == expected.values[(std::size_t(y) * 230 + x) * 3 + c];
+        CHECK(same);
+    }
+}
+
+TEST_CASE("progress grows to its end on the caller's thread, and false cancels")
+{
+    const Fixture fixture;
+    Image source = random_image(400, 400), target{ 400, 400 };
+    ApplyOptions options;
+    options.threads = 1;
+    std::vector<float> reported;
+    options.progress = [&](float part) {
+        reported.push_back(part);
+        return true;
+    };
+    REQUIRE(fixture.applier()->run(source.view(), target.view(), options));
+    CHECK(reported.size() > 3);
+    CHECK(std::is_sorted(reported.begin(), reported.end()));
+    CHECK(reported.back() == 1.0f);
+    options.progress = [](float) { return false; };
+    const Status status = fixture.applier()->run(source.view(), target.view(), options);
+    REQUIRE(!status);
+    CHECK(status.error().message == "apply: cancelled");
+}
+
+TEST_CASE("regions, targets and sources that do not fit are refused with their numbers")
+{
+    const Fixture fixture;
+    const auto applier = fixture.applier();
+    Image source = random_image(20, 20), target{ 10, 10 };
+    Status status = applier->run(source.view(), target.view());
+    REQUIRE(!status);
+    CHECK(status.error().message == "apply: target is 10 × 10, region is 20 × 20");
+    status = applier->run(source.view(), 0, 0, 20, 20, { 15, 25, 0, 10 }, target.view());
+    REQUIRE(!status);
+    CHECK(status.error().message == "apply: region [15, 25) × [0, 10) is empty or outside the image of 20 × 20");
+    status = applier->run(source.view(), 10, 10, 40, 40, { 12, 22, 14, 24 }, target.view());
+    REQUIRE(!status);
+    CHECK(status.error().message ==
+          "apply: source of 20 × 20 at (10, 10) does not hold the region and 4 pixels around it");
+}
+
+TEST_CASE("parameters of another model, or with a singular matrix, are refused")
+{
+    Fixture fixture;
+    fixture.parameters.color = { 1, 2, 3, 2, 4, 6, 1, 1, 1 };
+    Expected<std::shared_ptr<const Applier>> applier =
+        Applier::create(*fixture.model, fixture.parameters, Direction::reverse);
+    REQUIRE(!applier);
+    CHECK(applier.error().message.find("'color' is singular") != std::string::npos);
+    fixture.parameters.model_hash = "xxh128:0";
+    applier = Applier::create(*fixture.model, fixture.parameters, Direction::reverse);
+    REQUIRE(!applier);
+    CHECK(applier.error().message.find("parameters were chosen with model") != std::string::npos);
+}

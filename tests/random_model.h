@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "safetensors.h"
+
+/// A small generator with the same numbers on every machine (splitmix64).
+class Random {
+public:
+    explicit Random(std::uint64_t seed) : m_state(seed) {}
+
+    std::uint64_t next()
+    {
+        std::uint64_t z = m_state += 0x9e3779b97f4a7c15u;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return z ^ (z >> 31);
+    }
+    float uniform(float low, float high) { return low + (high - low) * static_cast<float>(next() >> 40) / 16777216.0f; }
+    int below(int limit) { return static_cast<int>(next() % static_cast<std::uint64_t>(limit)); }
+
+private:
+    std::uint64_t m_state;
+};
+
+/// A model of the `srisp-1` format with random values, to be broken by tests and written to a file.
+struct ModelFile {
+    std::map<std::string, std::string> metadata;
+    std::map<std::string, srisp::Tensor> tensors;
+    std::string type = "F32"; ///< F32, F16 or BF16
+
+    std::string bytes() const;
+    /// Writes the bytes; returns `path`.
+    std::string write(const std::string& path) const;
+};
+
+ModelFile random_model(int kernel_size, std::uint64_t seed, int dictionary_size = 5);
+
+/// A folder of its own for a test's files, removed with what is in it when the object goes.
+class ScratchFolder {
+public:
+    ScratchFolder();
+    ~ScratchFolder();
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+    std::string path(const std::string& name) const { return m_path + "/" + name; }
+
+private:
+    std::string m_path;
+};
+
+/// Writes a text or bytes to a file.
+void write_file(const std::string& path, const std::string& bytes);
