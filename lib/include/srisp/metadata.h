@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include <OpenImageIO/imageio.h>
 #include <srisp/apply.h>
 #include <srisp/expected.h>
@@ -8,13 +10,22 @@
 #include <srisp/parameters.h>
 #include <srisp/reference.h>
 
+// What a result says of itself, in forms that survive OpenImageIO's EXR, TIFF, PNG and JPEG writers: ImageDescription
+// as one JSON line, and attributes `unprocess:*`. (Not `srisp:*`: writers drop the prefixes of other loaded formats.)
+
 namespace srisp {
 
-/// Writes into `spec` what a result says of itself, in the forms that survive EXR, TIFF, PNG and JPEG: a plain mark
-/// that the image is synthetic, parameters and hashes (ImageDescription as one JSON line, and `unprocess:*`), the
-/// reference's camera facts (XYZ→camera matrix, adoptedNeutral) and a colour-space name that no program takes for
-/// linear sRGB. `reference` may be null where parameters were given instead of one. `Direction::forward` marks an sRGB
-/// result.
+/// `oiio:ColorSpace` and `unprocess:colorspace` of a RAW-like result: linear camera RGB, which is not linear sRGB.
+constexpr const char* kCameraColorSpace = "camera_rgb";
+
+/// Writes what holds before the parameters are known: the plain mark that the image is synthetic and the name of its
+/// colour space; erases what described the encoding or the pixels of the source (ICC profile, Exif:ColorSpace, gamma,
+/// chromaticities, checksums, …) and what srisp recorded of an earlier step.
+SRISP_API void mark_result(OIIO::ImageSpec& spec, Direction direction);
+
+/// `mark_result`, then parameters, names and hashes, and for `Direction::reverse` the reference's camera facts
+/// (XYZ→camera matrix, levels, …) and adoptedNeutral. `reference` may be null where parameters were given instead of
+/// one. The source's own ImageDescription is kept inside ours.
 SRISP_API void record_result(OIIO::ImageSpec& spec, const Parameters& parameters, const Reference* reference,
                              Direction direction);
 
