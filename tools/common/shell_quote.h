@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace srisp {
+
+/// The words as one line that a POSIX shell reads back to the same words.
+std::string shell_line(const std::vector<std::string>& words);
+
+} // namespace srisp

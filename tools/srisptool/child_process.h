@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <signal.h>
+
+#include <string>
+#include <vector>
+
+namespace srisp {
+
+/// Replaces this process by the program; `words[0]` is its file. Fails if it cannot be run.
+[[noreturn]] void become(const std::vector<std::string>& words, const std::vector<std::string>& environment);
+
+/// Keeps SIGINT, SIGTERM, SIGHUP and SIGQUIT from ending this process while the object lives, so that what was begun
+/// can be cleaned up; those that were ignored stay ignored.
+class HeldSignals {
+public:
+    HeldSignals();
+    /// Lets them through again; one that came ends the process here, as it would have without this object.
+    ~HeldSignals();
+    HeldSignals(const HeldSignals&) = delete;
+    HeldSignals& operator=(const HeldSignals&) = delete;
+
+    /// Runs the program and waits for its end; a held signal is passed on to it. Returns its exit code, 128 + n if
+    /// signal n ended it.
+    int run(const std::vector<std::string>& words, const std::vector<std::string>& environment);
+
+private:
+    int wait_for(int child);
+
+    sigset_t m_held, m_before;
+    int m_came = 0;
+};
+
+} // namespace srisp

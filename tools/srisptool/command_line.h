@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "command_table.h"
+#include "srisp_command.h"
+
+namespace srisp {
+
+/// One step of a command line: an image's name, a command of oiiotool with its arguments, or one of ours.
+struct Step {
+    std::vector<std::string> words;            ///< as typed
+    const OiiotoolCommand* oiiotool = nullptr; ///< null for names, our commands, and commands not in the table
+    const SrispCommand* srisp = nullptr;
+
+    bool is_operand() const { return !is_command(words[0]); }
+    bool is_named(const std::string& name) const { return !is_operand() && command_name(words[0]) == name; }
+};
+
+/// Splits the words (without the program's name) into steps. A command that the table does not know takes no arguments.
+/// Fails (exit 2) for unknown --srisp-… commands and for ours that lack their argument.
+std::vector<Step> parse_command_line(const std::vector<std::string>& words);
+
+/// Whether a command of that name (without dashes) is among the steps.
+bool contains(const std::vector<Step>& steps, const std::string& name);
+
+} // namespace srisp

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include "../common/failure.h"
+#include "command_line.h"
+#include "help.h"
+#include "session.h"
+
+using namespace srisp;
+
+static bool uses_images_of_ours(const std::vector<Step>& steps)
+{
+    return std::any_of(steps.begin(), steps.end(), [](const Step& step) {
+        return step.srisp && (step.srisp->effect == Effect::replaces || step.srisp->effect == Effect::reports);
+    });
+}
+
+static int run(const std::string& program, const std::vector<std::string>& words)
+{
+    const std::vector<Step> steps = parse_command_line(words);
+    if (contains(steps, "srisp-help")) {
+        std::fputs(kHelp, stdout);
+        return 0;
+    }
+    if (words.empty() || contains(steps, "help")) {
+        std::fputs(kHelp, stdout);
+        std::fputs("\n", stdout);
+    } else if (contains(steps, "version") && program == "srisptool") {
+        std::puts("srisptool " SRISP_VERSION ", with oiiotool");
+    }
+    std::fflush(stdout);
+    if (!uses_images_of_ours(steps))
+        run_unchanged(steps);
+    return run_rewritten(program, steps);
+}
+
+int main(int argc, char** argv)
+{
+    try {
+        return run(std::filesystem::path(argv[0]).filename(), { argv + 1, argv + argc });
+    } catch (const Failure& failure) {
+        std::fprintf(stderr, "srisptool: %s\n", failure.message.c_str());
+        return failure.exit_code;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "srisptool: %s\n", error.what());
+        return kExitFailed;
+    }
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modifiers.h"
+
+#include "../common/failure.h"
+
+namespace srisp {
+
+namespace {
+
+/// Takes the value that begins at `position`, and moves `position` behind it.
+std::string take_value(const std::string& word, std::size_t& position)
+{
+    const char quote = position < word.size() ? word[position] : '\0';
+    std::string value;
+    if (quote != '"' && quote != '\'') {
+        const std::size_t end = std::min(word.find(':', position), word.size());
+        value = word.substr(position, end - position);
+        position = end;
+        return value;
+    }
+    for (++position; position < word.size() && word[position] != quote; ++position) {
+        if (word[position] == '\\' && position + 1 < word.size() &&
+            (word[position + 1] == quote || word[position + 1] == '\\'))
+            ++position;
+        value += word[position];
+    }
+    if (position == word.size())
+        fail_usage("'" + word + "': the quote " + quote + " is not closed");
+    ++position;
+    if (position < word.size() && word[position] != ':')
+        fail_usage("'" + word + "': expected ':' after the closing quote");
+    return value;
+}
+
+} // namespace
+
+Modifiers parse_modifiers(const std::string& word)
+{
+    Modifiers modifiers;
+    std::size_t position = std::min(word.find(':'), word.size());
+    while (position < word.size()) {
+        const std::size_t start = position + 1;
+        const std::size_t end = word.find_first_of(":=", start);
+        const std::string name = word.substr(start, end - start);
+        if (end == std::string::npos || word[end] == ':' || name.empty())
+            fail_usage("'" + word + "': expected name=value at '" + name +
+                       "' (a value that holds ':' needs quotes that the shell leaves: 'params=\"a:b.json\"')");
+        position = end + 1;
+        std::string value = take_value(word, position);
+        if (value.empty())
+            fail_usage("'" + word + "': " + name + "= has no value");
+        modifiers.emplace_back(name, value);
+    }
+    return modifiers;
+}
+
+bool has_modifier(const std::string& word, const std::string& name)
+{
+    return word.find(":" + name + "=") != std::string::npos;
+}
+
+} // namespace srisp

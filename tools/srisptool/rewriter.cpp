@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rewriter.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "../common/failure.h"
+#include "modifiers.h"
+#include "output_depth.h"
+
+namespace srisp {
+
+namespace {
+
+// Options in force must not touch what is handed over: pixels go as they are, and come back at once. (`now`: a later
+// round of a loop reuses the name.)
+const char kHandOver[] = "-o:datatype=float:bits=0:autocc=0:autotrim=0:dither=0";
+const char kTakeBack[] = "-i:now=1:autocc=0:info=0";
+
+class Rewriter {
+public:
+    explicit Rewriter(const RewriteOptions& options) : m_options(options) {}
+
+    Rewritten run(const std::vector<Step>& steps)
+    {
+        // oiiotool would record the words that it is given, which hold names of temporary files.
+        m_result.words.push_back("--nosoftwareattrib");
+        for (const Step& step : steps) {
+            if (step.srisp)
+                add_ours(step);
+            else
+                add_theirs(step);
+            m_previous = &step;
+        }
+        return m_result;
+    }
+
+private:
+    void emit(const std::vector<std::string>& words)
+    {
+        m_result.words.insert(m_result.words.end(), words.begin(), words.end());
+    }
+
+    void add_theirs(const Step& step)
+    {
+        std::vector<std::string> words = step.words;
+        if (step.is_operand())
+            m_any_image = true;
+        else
+            note_command(step, words);
+        emit(words);
+    }
+
+    void note_command(const Step& step, std::vector<std::string>& words)
+    {
+        const Role role = step.oiiotool ? step.oiiotool->role : Role::acts;
+        m_sticky |= role == Role::sticky;
+        m_acted |= role == Role::acts;
+        m_any_image |= role == Role::reads || role == Role::creates;
+        if (step.is_named("evaloff") || step.is_named("evalon"))
+            m_evaluates = step.is_named("evalon");
+        else if (step.is_named("n"))
+            m_dry_run = true;
+        else if (step.is_named("d"))
+            m_depth_given = true;
+        else if (step.is_named("label") && words.size() > 1)
+            m_labels.push_back(words[1]);
+        else if (step.is_named("o") && words.size() > 1 && m_raw && !m_depth_given)
+            choose_depth(words);
+    }
+
+    /// For a RAW-like image 8 bits are too few, and that is what oiiotool writes where the format cannot hold float.
+    void choose_depth(std::vector<std::string>& words)
+    {
+        for (const char* name : { "datatype", "type", "bits" })
+            if (has_modifier(words[0], name))
+                return;
+        std::string format = words[1];
+        for (const auto& [name, value] : oiiotool_modifiers(words[0]))
+            if (name == "fileformatname")
+                format = value;
+        const Depth depth = deepest(format);
+        if (depth == Depth::sixteen)
+            words[0] += ":datatype=uint16";
+        else if (depth == Depth::eight)
+            m_result.warnings.push_back("'" + words[1] +
+                                        "' holds 8 bits per channel, few for linear values; write EXR, TIFF or "
+                                        "PNG, or say '-d uint8' to keep this format without this warning");
+    }
+
+    /// Those of a command that is not ours to criticise: none if they are malformed.
+    static Modifiers oiiotool_modifiers(const std::string& word)
+    {
+        try {
+            return parse_modifiers(word);
+        } catch (const Failure&) {
+            return {};
+        }
+    }
+
+    void add_ours(const Step& step)
+    {
+        if (step.srisp->effect == Effect::configures) {
+            if (step.is_named("quiet"))
+                emit({ "-q" });
+            return;
+        }
+        const std::string command = std::string("--") + step.srisp->name;
+        nlohmann::json job = job_of(step);
+        if (!m_any_image)
+            fail(command + ": no image before it");
+        if (!m_options.typed_command.empty())
+            job["command"] = m_options.typed_command;
+        if (m_options.progress)
+            job["progress"] = true;
+        const std::string name = std::to_string(++m_jobs);
+        if (step.srisp->effect == Effect::replaces && may_read_directly())
+            read_directly(name, std::move(job));
+        else if (m_dry_run)
+            m_result.warnings.push_back("-n writes nothing, so " + command + " was checked but not run");
+        else
+            hand_over(name, std::move(job), *step.srisp);
+        if (step.srisp->effect == Effect::replaces)
+            m_raw = step.srisp->direction == std::string("reverse");
+    }
+
+    /// Whether the step before is a file's name and nothing else, which oiiotool would read as the plugin reads it.
+    bool may_read_directly() const
+    {
+        if (!m_previous || m_sticky || m_acted)
+            return false;
+        const bool named = m_previous->oiiotool && m_previous->oiiotool->role == Role::reads &&
+                           m_previous->words.size() == 2 && m_previous->words[0].find(':') == std::string::npos;
+        if (!m_previous->is_operand() && !named)
+            return false;
+        const std::string& name = m_previous->words.back();
+        const bool is_label = std::find(m_labels.begin(), m_labels.end(), name) != m_labels.end();
+        std::error_code error;
+        return !is_label && name.find_first_of("#@%{}?") == std::string::npos &&
+               std::filesystem::path(name).extension() != ".srisp" && std::filesystem::is_regular_file(name, error);
+    }
+
+    void read_directly(const std::string& name, nlohmann::json recipe)
+    {
+        recipe["source"] = std::filesystem::absolute(m_previous->words.back()).string();
+        m_result.words.back() = m_options.folder + "/" + name + ".srisp";
+        m_result.files.push_back({ name + ".srisp", std::move(recipe) });
+    }
+
+    void hand_over(const std::string& name, nlohmann::json job, const SrispCommand& command)
+    {
+        job["action"] = command.action;
+        m_result.files.push_back({ name + ".json", std::move(job) });
+        // One name per frame: OpenImageIO caches by name.
+        const std::string slot = m_options.folder + "/" + name + ".{FRAME_NUMBER}.srisp";
+        if (!m_evaluates)
+            emit({ "--evalon" });
+        emit({ kHandOver, slot });
+        if (command.effect == Effect::replaces)
+            emit({ "--pop", kTakeBack, slot });
+        if (!m_evaluates)
+            emit({ "--evaloff" });
+    }
+
+    const RewriteOptions& m_options;
+    Rewritten m_result;
+    const Step* m_previous = nullptr;
+    int m_jobs = 0;
+    std::vector<std::string> m_labels;
+    bool m_evaluates = true;
+    bool m_sticky = false; ///< something changes how images are read
+    bool m_acted = false;  ///< a command may be waiting for the next image, or run conditionally
+    bool m_any_image = false;
+    bool m_raw = false; ///< the last of our commands made a RAW-like image
+    bool m_depth_given = false;
+    bool m_dry_run = false;
+};
+
+} // namespace
+
+Rewritten rewrite(const std::vector<Step>& steps, const RewriteOptions& options)
+{
+    return Rewriter(options).run(steps);
+}
+
+} // namespace srisp
