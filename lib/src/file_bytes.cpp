@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "file_bytes.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace srisp {
+
+namespace {
+
+constexpr std::size_t kLargestFile = std::size_t(2) << 30;
+
+/// An open regular file; closes itself.
+class OpenFile {
+public:
+    static Expected<OpenFile> open(const std::string& path)
+    {
+        // O_NONBLOCK: a FIFO without a writer must not hang us; it is refused below.
+        OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+        struct stat status;
+        if (file.m_descriptor < 0 || ::fstat(file.m_descriptor, &status) != 0)
+            return Error{ std::strerror(errno) };
+        if (S_ISDIR(status.st_mode))
+            return Error{ "is a folder; a file is expected here" };
+        if (!S_ISREG(status.st_mode))
+            return Error{ "is not a regular file" };
+        if (status.st_size == 0)
+            return Error{ "is empty" };
+        file.m_size = std::size_t(status.st_size);
+        return file;
+    }
+
+    explicit OpenFile(int descriptor) : m_descriptor(descriptor) {}
+    OpenFile(OpenFile&& other) noexcept : m_descriptor(other.m_descriptor), m_size(other.m_size)
+    {
+        other.m_descriptor = -1;
+    }
+    ~OpenFile()
+    {
+        if (m_descriptor >= 0)
+            ::close(m_descriptor);
+    }
+
+    std::size_t size() const { return m_size; }
+
+    /// Reads until `size` bytes or the end; the number read, or -1.
+    long long read(void* target, std::size_t size)
+    {
+        std::size_t done = 0;
+        while (done < size) {
+            const ssize_t n = ::read(m_descriptor, static_cast<char*>(target) + done, size - done);
+            if (n < 0 && errno == EINTR)
+                continue;
+            if (n < 0)
+                return -1;
+            if (n == 0)
+                break;
+            done += std::size_t(n);
+        }
+        return static_cast<long long>(done);
+    }
+
+private:
+    int m_descriptor;
+    std::size_t m_size = 0;
+};
+
+} // namespace
+
+Expected<std::string> read_head(const std::string& path, std::size_t limit)
+{
+    auto file = OpenFile::open(path);
+    if (!file)
+        return file.error();
+    std::string head(std::min(limit, file->size()), '\0');
+    const long long got = file->read(head.data(), head.size());
+    if (got < 0)
+        return Error{ std::strerror(errno) };
+    head.resize(std::size_t(got));
+    return head;
+}
+
+Expected<FileBytes> read_whole_file(const std::string& path)
+{
+    auto file = OpenFile::open(path);
+    if (!file)
+        return file.error();
+    if (file->size() > kLargestFile)
+        return Error{ "has " + std::to_string(file->size()) + " bytes, the limit is " + std::to_string(kLargestFile) };
+    std::shared_ptr<unsigned char[]> data(new unsigned char[file->size()]);
+    const long long got = file->read(data.get(), file->size());
+    if (got < 0)
+        return Error{ std::strerror(errno) };
+    return FileBytes{ std::move(data), std::size_t(got) };
+}
+
+} // namespace srisp

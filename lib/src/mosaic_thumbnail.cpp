@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mosaic_thumbnail.h"
+
+#include <algorithm>
+#include <array>
+
+#include <OpenImageIO/parallel.h>
+#include <srisp/thumbnail.h>
+
+#include "area_average.h"
+
+namespace srisp {
+
+namespace {
+
+using Shares = std::vector<AxisCoverage::Share>;
+
+/// The inputs of each cell, instead of the cells of each input.
+std::vector<Shares> shares_by_cell(int count)
+{
+    std::vector<Shares> cells(kThumbnailSize);
+    for (const auto& share : axis_coverage(count, kThumbnailSize).shares)
+        cells[std::size_t(share.cell)].push_back(share);
+    return cells;
+}
+
+/// One row of the thumbnail of a mosaic. `rows`: the sensor rows that it covers.
+void average_mosaic_row(const RawPixels& pixels, const RowScaler& scaler, const Shares& rows,
+                        const std::vector<Shares>& columns, float* target)
+{
+    const CfaPattern& cfa = pixels.cfa;
+    const std::size_t width = std::size_t(pixels.width);
+    std::vector<float> line(width);
+    // Sums down the columns, apart for each row of the pattern, so that a place in it has one colour.
+    std::vector<double> sums(width * std::size_t(cfa.rows));
+    std::vector<double> lengths(std::size_t(cfa.rows));
+    for (const auto& row : rows) {
+        scaler.scale(row.input, line.data());
+        double* sum = sums.data() + width * std::size_t(row.input % cfa.rows);
+        for (std::size_t x = 0; x < width; ++x)
+            sum[x] += row.length * double(line[x]);
+        lengths[std::size_t(row.input % cfa.rows)] += row.length;
+    }
+    for (std::size_t cell = 0; cell < columns.size(); ++cell) {
+        std::array<double, 3> total{}, area{};
+        for (int row = 0; row < cfa.rows; ++row)
+            for (const auto& column : columns[cell]) {
+                const std::size_t color = std::size_t(cfa.color(row, column.input));
+                total[color] += column.length * sums[width * std::size_t(row) + std::size_t(column.input)];
+                area[color] += column.length * lengths[std::size_t(row)];
+            }
+        for (std::size_t c = 0; c < 3; ++c)
+            target[cell * 3 + c] = float(total[c] / area[c]);
+    }
+}
+
+Thumbnail average_mosaic(const RawPixels& pixels)
+{
+    const RowScaler scaler(pixels);
+    const std::vector<Shares> rows = shares_by_cell(pixels.height), columns = shares_by_cell(pixels.width);
+    Thumbnail thumbnail;
+    OIIO::parallel_for(0, kThumbnailSize, [&](std::int64_t y) {
+        average_mosaic_row(pixels, scaler, rows[std::size_t(y)], columns,
+                           thumbnail.rgb.data() + std::size_t(y) * kThumbnailSize * 3);
+    });
+    return thumbnail;
+}
+
+/// Bilinear demosaic of one row of a Bayer mosaic. `lines`: the rows above, here and below; null outside the sensor. At
+/// the border the missing neighbours are left out of the means.
+void demosaic_row(const RawPixels& pixels, int y, const std::array<const float*, 3>& lines, float* target)
+{
+    for (int x = 0; x < pixels.width; ++x) {
+        std::array<float, 3> sum{}, weight{};
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx) {
+                const float* line = lines[std::size_t(dy + 1)];
+                if (!line || x + dx < 0 || x + dx >= pixels.width)
+                    continue;
+                const std::size_t color =
+                    std::size_t(pixels.cfa.color(y + dy + pixels.cfa.rows, x + dx + pixels.cfa.columns));
+                const float w = float((2 - std::abs(dx)) * (2 - std::abs(dy)));
+                sum[color] += w * line[x + dx];
+                weight[color] += w;
+            }
+        const std::size_t own = std::size_t(pixels.cfa.color(y, x));
+        for (std::size_t c = 0; c < 3; ++c)
+            target[std::size_t(x) * 3 + c] = c == own ? lines[1][x] : sum[c] / weight[c];
+    }
+}
+
+Thumbnail average_demosaiced(const RawPixels& pixels)
+{
+    const RowScaler scaler(pixels);
+    const std::size_t width = std::size_t(pixels.width);
+    std::array<std::vector<float>, 3> ring; // scaled row y lies in ring[y % 3]
+    for (int y = 0; y < 2; ++y) {
+        ring[std::size_t(y)].resize(width);
+        scaler.scale(y, ring[std::size_t(y)].data());
+    }
+    ring[2].resize(width);
+    std::vector<float> rgb(width * 3);
+    ThumbnailBuilder builder(pixels.width, pixels.height);
+    for (int y = 0; y < pixels.height; ++y) {
+        if (y > 0 && y + 1 < pixels.height)
+            scaler.scale(y + 1, ring[std::size_t(y + 1) % 3].data());
+        demosaic_row(pixels, y,
+                     { y > 0 ? ring[std::size_t(y - 1) % 3].data() : nullptr, ring[std::size_t(y) % 3].data(),
+                       y + 1 < pixels.height ? ring[std::size_t(y + 1) % 3].data() : nullptr },
+                     rgb.data());
+        builder.add_rows({ rgb.data(), pixels.width, 1, 3, std::ptrdiff_t(width) * 3 });
+    }
+    return builder.finish(1);
+}
+
+Thumbnail average_rgb(const RawPixels& pixels)
+{
+    const RowScaler scaler(pixels);
+    std::vector<float> rgb(std::size_t(pixels.width) * 3);
+    ThumbnailBuilder builder(pixels.width, pixels.height);
+    for (int y = 0; y < pixels.height; ++y) {
+        scaler.scale(y, rgb.data());
+        builder.add_rows({ rgb.data(), pixels.width, 1, 3, std::ptrdiff_t(pixels.width) * 3 });
+    }
+    return builder.finish(1);
+}
+
+} // namespace
+
+Thumbnail raw_thumbnail(const RawPixels& pixels)
+{
+    if (pixels.channels == 3)
+        return average_rgb(pixels);
+    const bool small = std::min(pixels.width, pixels.height) < 2 * kThumbnailSize;
+    return small ? average_demosaiced(pixels) : average_mosaic(pixels);
+}
+
+} // namespace srisp
