@@ -8,7 +8,7 @@ namespace srisp {
 
 // Bit readers look a few bytes ahead, also at the end of a whole file.
 static constexpr int kLookAhead = 8;
-// Some decoders (Panasonic, Fujifilm) read blocks of fixed size, of which the last may reach beyond the end.
+// Some decoders (Panasonic, Fujifilm) read blocks of bytes of fixed size, of which the last may reach beyond the end.
 static constexpr std::size_t kLargestBlock = 65536;
 
 int RawStream::at_end()
@@ -24,7 +24,8 @@ int RawStream::read(void* target, size_t size, size_t count)
         return 0;
     const std::size_t left = m_size - m_position;
     const std::size_t wanted = count > left / size ? left : size * count;
-    const bool missing = wanted == 0 || count > (wanted + kLargestBlock) / size;
+    const std::size_t allowed = size == 1 ? kLargestBlock : 0;
+    const bool missing = wanted == 0 || count > (wanted + allowed) / size;
     if (missing && m_end_is_error)
         throw LIBRAW_EXCEPTION_IO_EOF;
     std::memcpy(target, m_data + m_position, wanted);
