@@ -1,0 +1,41 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# Installs the Debian packages that building, testing and running srisp need. Says nothing where all are there.
+set -eu
+
+packages="
+    cmake g++ ninja-build pkg-config
+    doctest-dev libhwy-dev libimath-dev liblcms2-dev libopenexr-dev libopenimageio-dev libraw-dev libtiff-dev libxxhash-dev
+    nlohmann-json3-dev
+    openimageio-tools
+    clang-format-14 dcraw fonts-dejavu-core libimage-exiftool-perl libraw-bin man-db python3 python3-openimageio
+"
+
+if ! command -v dpkg-query >/dev/null; then
+    echo "install-deps: this is not Debian; install the equivalents of:" $packages >&2
+    exit 1
+fi
+missing=""
+for package in $packages; do
+    case $(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true) in
+        installed) ;;
+        *) missing="$missing $package" ;;
+    esac
+done
+[ -n "$missing" ] || exit 0
+
+as_root=""
+if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+        echo "install-deps: neither root nor sudo here; as root, run: apt-get install$missing" >&2
+        exit 1
+    fi
+    as_root="sudo"
+fi
+echo "install-deps: installing$missing" >&2
+fail() {
+    echo "install-deps: apt-get could not install$missing" >&2
+    exit 1
+}
+$as_root apt-get update -qq </dev/null || echo "install-deps: apt-get update failed; trying with the lists that are here" >&2
+$as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing </dev/null >&2 || fail
