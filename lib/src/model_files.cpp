@@ -26,7 +26,9 @@ fs::path folder_beside_library()
     if (dladdr(reinterpret_cast<const void*>(&folder_beside_library), &info) == 0)
         return {};
     std::error_code error;
-    for (fs::path folder = fs::canonical(info.dli_fname, error).parent_path(); folder.has_relative_path();
+    // Of a program, not a library, dladdr knows only what it was called by.
+    const fs::path file = info.dli_fname[0] == '/' ? info.dli_fname : "/proc/self/exe";
+    for (fs::path folder = fs::canonical(file, error).parent_path(); folder.has_relative_path();
          folder = folder.parent_path()) {
         const fs::path models = folder / "share/srisp/models";
         if (fs::is_directory(models, error))

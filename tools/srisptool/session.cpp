@@ -116,7 +116,8 @@ int run_rewritten(const std::string& program, const std::vector<Step>& steps)
     set_variable(environment, kGuardListVariable, (folder.path() / kStartedOutputs).string());
     rewritten.words.insert(rewritten.words.begin(), stock.string());
     const int exit_code = signals.run(rewritten.words, environment);
-    refuse_lost_outputs(folder.path());
+    if (exit_code == 0)
+        refuse_lost_outputs(folder.path());
     return exit_code;
 }
 

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "../../../tools/srisptool/rewriter.h"
+
+#include <doctest/doctest.h>
+
+#include "../failure_of.h"
+#include "../scratch_folder.h"
+
+using namespace srisp;
+using Words = std::vector<std::string>;
+
+namespace {
+
+const std::string kOut = "-o:datatype=float:bits=0:autocc=0:autotrim=0:dither=0";
+const std::string kIn = "-i:now=1:autocc=0:info=0";
+
+/// A photo and a reference that exist.
+struct Files {
+    ScratchFolder scratch;
+    std::string photo = scratch.file("a.jpg"), other = scratch.file("b.jpg"), reference = scratch.file("r.dng");
+};
+
+Rewritten rewritten(const Words& words, const RewriteOptions& options = { "/T", "", false })
+{
+    return rewrite(parse_command_line(words), options);
+}
+
+Words hand_over(const std::string& number)
+{
+    const std::string slot = "/T/" + number + ".{FRAME_NUMBER}.srisp";
+    return { kOut, slot, "--pop", kIn, slot };
+}
+
+Words joined(const std::vector<Words>& parts)
+{
+    Words all = { "--nosoftwareattrib" };
+    for (const Words& part : parts)
+        all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+} // namespace
+
+TEST_CASE("a plain file name before unprocess becomes a recipe")
+{
+    const Files files;
+    const Rewritten result = rewritten({ files.photo, "--srisp-unprocess:seed=3", files.reference, "-o", "raw.exr" });
+    CHECK(result.words == joined({ { "/T/1.srisp", "-o", "raw.exr" } }));
+    REQUIRE(result.files.size() == 1);
+    CHECK(result.files[0].name == "1.srisp");
+    CHECK(result.files[0].content == nlohmann::json{ { "format", "srisp-recipe-1" },
+                                                     { "direction", "reverse" },
+                                                     { "source", files.photo },
+                                                     { "reference", files.reference },
+                                                     { "seed", 3 } });
+    CHECK(result.warnings.empty());
+}
+
+TEST_CASE("-i without modifiers is as good as a plain name")
+{
+    const Files files;
+    CHECK(rewritten({ "-i", files.photo, "--srisp-process" }).words == joined({ { "-i", "/T/1.srisp" } }));
+    CHECK(rewritten({ "-i:ch=R,G,B", files.photo, "--srisp-process" }).words ==
+          joined({ { "-i:ch=R,G,B", files.photo }, hand_over("1") }));
+}
+
+TEST_CASE("an image that was worked on is handed over")
+{
+    const Files files;
+    const Rewritten result = rewritten({ files.photo, "--resize", "50%", "--srisp-unprocess:hold=1", files.reference });
+    CHECK(result.words == joined({ { files.photo, "--resize", "50%" }, hand_over("1") }));
+    CHECK(result.files[0].name == "1.json");
+    CHECK(result.files[0].content == nlohmann::json{ { "format", "srisp-recipe-1" },
+                                                     { "direction", "reverse" },
+                                                     { "action", "apply" },
+                                                     { "reference", files.reference },
+                                                     { "hold", true } });
+}
+
+TEST_CASE("commands one after the other get numbers of their own")
+{
+    const Files files;
+    const Rewritten result =
+        rewritten({ files.photo, "--srisp-unprocess", files.reference, files.other, "--srisp-unprocess",
+                    files.reference, "--over", "--srisp-process", "-o", "x.exr" });
+    CHECK(result.words == joined({ { "/T/1.srisp", "/T/2.srisp", "--over" }, hand_over("3"), { "-o", "x.exr" } }));
+    CHECK(result.files[2].content["direction"] == "forward");
+}
+
+TEST_CASE("process directly after unprocess is handed over")
+{
+    const Files files;
+    CHECK(rewritten({ files.photo, "--srisp-unprocess", files.reference, "--srisp-process" }).words ==
+          joined({ { "/T/1.srisp" }, hand_over("2") }));
+}
+
+TEST_CASE("printing and saving parameters leave the image on the stack")
+{
+    const Files files;
+    const Rewritten result =
+        rewritten({ files.photo, "--srisp-params", files.reference, "--srisp-unprocess", files.reference,
+                    "--srisp-save-params", files.scratch.path("p.#.json"), "-o", "raw.exr" });
+    CHECK(result.words == joined({ { files.photo, kOut, "/T/1.{FRAME_NUMBER}.srisp" },
+                                   hand_over("2"),
+                                   { kOut, "/T/3.{FRAME_NUMBER}.srisp", "-o", "raw.exr" } }));
+    CHECK(result.files[0].content["action"] == "print");
+    CHECK(result.files[2].content["action"] == "save");
+    CHECK(result.files[2].content["file"] == files.scratch.path("p.#.json"));
+}
+
+TEST_CASE("where evaluation is off it is turned on for the hand-over only")
+{
+    const Files files;
+    CHECK(rewritten({ "--evaloff", files.photo, "--flip", "--srisp-unprocess", files.reference, "-o", "{x}.exr" })
+              .words == joined({ { "--evaloff", files.photo, "--flip", "--evalon" },
+                                 hand_over("1"),
+                                 { "--evaloff", "-o", "{x}.exr" } }));
+    CHECK(rewritten({ "-evaloff", "-evalon", files.photo, "--flip", "--srisp-process" }).words ==
+          joined({ { "-evaloff", "-evalon", files.photo, "--flip" }, hand_over("1") }));
+}
+
+TEST_CASE("what changes how images are read forbids the recipe")
+{
+    const Files files;
+    const std::vector<Words> before = { { "--autocc" },
+                                        { "--iconfig", "a", "b" },
+                                        { "--autoorient" },
+                                        { "--no-autopremult" },
+                                        { "--info" },
+                                        { "-stats" },
+                                        { "--hash" },
+                                        { "--native" },
+                                        { "--missingfile", "black" },
+                                        { "--over" },
+                                        { "--if", "1" },
+                                        { "--newer-than-2.4" } };
+    for (Words words : before) {
+        CAPTURE(words[0]);
+        const Words kept = words;
+        for (const std::string& word : { files.photo, std::string("--srisp-unprocess"), files.reference })
+            words.push_back(word);
+        CHECK(rewritten(words).words == joined({ kept, { files.photo }, hand_over("1") }));
+    }
+}
+
+TEST_CASE("options that change nothing of reading do not")
+{
+    const Files files;
+    CHECK(rewritten({ "-v", "--threads", "2", "-a", "--frames", "1-3", files.photo, "--srisp-process" }).words ==
+          joined({ { "-v", "--threads", "2", "-a", "--frames", "1-3", "/T/1.srisp" } }));
+}
+
+TEST_CASE("wildcards, expressions, queries, labels, recipes and missing files are handed over, never named in a job")
+{
+    const Files files;
+    for (const char* name : { "a.#.jpg", "a@.jpg", "a%04d.jpg", "a%V.jpg", "{x}.jpg", "a.jpg?x=1", "a.srisp" }) {
+        CAPTURE(name);
+        const std::string photo = files.scratch.file(name);
+        CHECK(rewritten({ photo, "--srisp-process" }).words == joined({ { photo }, hand_over("1") }));
+    }
+    CHECK(rewritten({ "no.jpg", "--srisp-process" }).words == joined({ { "no.jpg" }, hand_over("1") }));
+    CHECK(rewritten({ "x.tif", "--label", files.photo, files.photo, "--srisp-process" }).words.back() ==
+          "/T/1.{FRAME_NUMBER}.srisp");
+}
+
+TEST_CASE("arguments of other commands are not taken for images")
+{
+    const Files files;
+    CHECK(rewritten({ "x.tif", "--text", files.photo, "--srisp-process" }).words ==
+          joined({ { "x.tif", "--text", files.photo }, hand_over("1") }));
+}
+
+TEST_CASE("names of the user never stand in words that srisptool adds")
+{
+    const ScratchFolder scratch;
+    const std::string photo = scratch.file("50%20d #@{1}=&?.jpg"), reference = scratch.file("r%04d{x}#.dng");
+    const Rewritten result = rewritten({ photo, "--srisp-unprocess", reference, "--srisp-params", reference });
+    CHECK(result.words == joined({ { photo }, hand_over("1"), { kOut, "/T/2.{FRAME_NUMBER}.srisp" } }));
+    CHECK(result.files[0].content["reference"] == reference);
+}
+
+TEST_CASE("formats without float get 16 bits for RAW-like images, unless the user chose")
+{
+    const Files files;
+    const auto last = [&](Words words) {
+        words.insert(words.begin(), { files.photo, "--srisp-unprocess", files.reference });
+        const Words all = rewritten(words).words;
+        return Words(all.end() - 2, all.end());
+    };
+    CHECK(last({ "-o", "x.png" }) == Words{ "-o:datatype=uint16", "x.png" });
+    CHECK(last({ "-o:dither=1", "x.#.PNG" }) == Words{ "-o:dither=1:datatype=uint16", "x.#.PNG" });
+    CHECK(last({ "-o:fileformatname=png", "x" }) == Words{ "-o:fileformatname=png:datatype=uint16", "x" });
+    CHECK(last({ "-o:fileformatname=openexr", "x.png" }) == Words{ "-o:fileformatname=openexr", "x.png" });
+    CHECK(last({ "-o:datatype=uint8", "x.png" }) == Words{ "-o:datatype=uint8", "x.png" });
+    CHECK(last({ "-o:bits=10", "x.png" }) == Words{ "-o:bits=10", "x.png" });
+    CHECK(last({ "-d", "uint8", "-o", "x.png" }) == Words{ "-o", "x.png" });
+    CHECK(last({ "-o", "x.exr" }) == Words{ "-o", "x.exr" });
+    CHECK(last({ "--srisp-process", "-o", "x.png" }) == Words{ "-o", "x.png" });
+    CHECK(rewritten({ files.photo, "-o", "x.png", "--srisp-unprocess", files.reference }).words[2] == "-o");
+}
+
+TEST_CASE("formats of 8 bits get a warning that names -d, once the user did not choose")
+{
+    const Files files;
+    const Rewritten result = rewritten({ files.photo, "--srisp-unprocess", files.reference, "-o", "x.jpg" });
+    REQUIRE(result.warnings.size() == 1);
+    CHECK(result.warnings[0].find("'x.jpg' holds 8 bits") == 0);
+    CHECK(result.warnings[0].find("-d uint8") != std::string::npos);
+    CHECK(rewritten({ files.photo, "--srisp-unprocess", files.reference, "-d", "uint8", "-o", "x.jpg" })
+              .warnings.empty());
+}
+
+TEST_CASE("a dry run reads recipes, and skips what would need to write")
+{
+    const Files files;
+    CHECK(rewritten({ "-n", files.photo, "--srisp-process" }).words == joined({ { "-n", "/T/1.srisp" } }));
+    const Rewritten result = rewritten({ "-n", files.photo, "--flip", "--srisp-process" });
+    CHECK(result.words == joined({ { "-n", files.photo, "--flip" } }));
+    CHECK(result.warnings.size() == 1);
+}
+
+TEST_CASE("the user's command line and the progress go into every job")
+{
+    const Files files;
+    const Rewritten result =
+        rewritten({ files.photo, "--srisp-process", "--srisp-process" }, { "/T", "srisptool x", true });
+    for (const JobFile& file : result.files) {
+        CHECK(file.content["command"] == "srisptool x");
+        CHECK(file.content["progress"] == true);
+    }
+}
+
+TEST_CASE("--quiet and --no-progress are ours: oiiotool gets its -q")
+{
+    const Files files;
+    CHECK(rewritten({ "--quiet", "--no-progress", files.photo, "--srisp-process" }).words ==
+          joined({ { "-q", "/T/1.srisp" } }));
+}
+
+TEST_CASE("without an image there is nothing to do")
+{
+    const Files files;
+    CHECK(failure_of([&] {
+              rewritten({ "--srisp-unprocess", files.reference, "-o", "x.exr" });
+          }) == "1: --srisp-unprocess: no image before it");
+    CHECK(failure_of([&] { rewritten({ "--create", "1x1", "3", "--srisp-process" }); }) == "");
+}
