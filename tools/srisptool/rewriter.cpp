@@ -45,10 +45,16 @@ private:
     {
         std::vector<std::string> words = step.words;
         if (step.is_operand())
-            m_any_image = true;
+            note_image(words[0]);
         else
             note_command(step, words);
         emit(words);
+    }
+
+    void note_image(const std::string& name)
+    {
+        m_any_image = true;
+        m_image_name = name;
     }
 
     void note_command(const Step& step, std::vector<std::string>& words)
@@ -56,7 +62,8 @@ private:
         const Role role = step.oiiotool ? step.oiiotool->role : Role::acts;
         m_sticky |= role == Role::sticky;
         m_acted |= role == Role::acts;
-        m_any_image |= role == Role::reads || role == Role::creates;
+        if (role == Role::reads || role == Role::creates)
+            note_image(role == Role::reads && words.size() > 1 ? words[1] : "");
         if (step.is_named("evaloff") || step.is_named("evalon"))
             m_evaluates = step.is_named("evalon");
         else if (step.is_named("n"))
@@ -111,8 +118,8 @@ private:
             fail(command + ": no image before it");
         if (!m_options.typed_command.empty())
             job["command"] = m_options.typed_command;
-        if (m_options.progress)
-            job["progress"] = true;
+        job["progress"] = m_options.progress;
+        job["notes"] = m_options.notes;
         const std::string name = std::to_string(++m_jobs);
         if (step.srisp->effect == Effect::replaces && may_read_directly())
             read_directly(name, std::move(job));
@@ -150,6 +157,8 @@ private:
     void hand_over(const std::string& name, nlohmann::json job, const SrispCommand& command)
     {
         job["action"] = command.action;
+        if (!m_image_name.empty())
+            job["name"] = m_image_name;
         m_result.files.push_back({ name + ".json", std::move(job) });
         // One name per frame: OpenImageIO caches by name.
         const std::string slot = m_options.folder + "/" + name + ".{FRAME_NUMBER}.srisp";
@@ -171,6 +180,7 @@ private:
     bool m_sticky = false; ///< something changes how images are read
     bool m_acted = false;  ///< a command may be waiting for the next image, or run conditionally
     bool m_any_image = false;
+    std::string m_image_name; ///< of the last image that was read, as typed
     bool m_raw = false; ///< the last of our commands made a RAW-like image
     bool m_depth_given = false;
     bool m_dry_run = false;

@@ -101,8 +101,8 @@ int run_rewritten(const std::string& program, const std::vector<Step>& steps)
     RewriteOptions options;
     options.folder = folder.path().string();
     options.typed_command = recorded_command(program, steps);
-    options.progress =
-        isatty(STDERR_FILENO) && !contains(steps, "quiet") && !contains(steps, "q") && !contains(steps, "no-progress");
+    options.notes = !contains(steps, "quiet") && !contains(steps, "q");
+    options.progress = options.notes && isatty(STDERR_FILENO) && !contains(steps, "no-progress");
     Rewritten rewritten = rewrite(steps, options);
     for (const std::string& warning : rewritten.warnings)
         std::fprintf(stderr, "srisptool WARNING: %s\n", warning.c_str());

@@ -20,7 +20,7 @@ struct Files {
     std::string photo = scratch.file("a.jpg"), other = scratch.file("b.jpg"), reference = scratch.file("r.dng");
 };
 
-Rewritten rewritten(const Words& words, const RewriteOptions& options = { "/T", "", false })
+Rewritten rewritten(const Words& words, const RewriteOptions& options = { "/T", "", false, false })
 {
     return rewrite(parse_command_line(words), options);
 }
@@ -52,7 +52,9 @@ TEST_CASE("a plain file name before unprocess becomes a recipe")
                                                      { "direction", "reverse" },
                                                      { "source", files.photo },
                                                      { "reference", files.reference },
-                                                     { "seed", 3 } });
+                                                     { "seed", 3 },
+                                                     { "progress", false },
+                                                     { "notes", false } });
     CHECK(result.warnings.empty());
 }
 
@@ -74,7 +76,10 @@ TEST_CASE("an image that was worked on is handed over")
                                                      { "direction", "reverse" },
                                                      { "action", "apply" },
                                                      { "reference", files.reference },
-                                                     { "hold", true } });
+                                                     { "hold", true },
+                                                     { "name", files.photo },
+                                                     { "progress", false },
+                                                     { "notes", false } });
 }
 
 TEST_CASE("commands one after the other get numbers of their own")
@@ -177,6 +182,7 @@ TEST_CASE("names of the user never stand in words that srisptool adds")
     const Rewritten result = rewritten({ photo, "--srisp-unprocess", reference, "--srisp-params", reference });
     CHECK(result.words == joined({ { photo }, hand_over("1"), { kOut, "/T/2.{FRAME_NUMBER}.srisp" } }));
     CHECK(result.files[0].content["reference"] == reference);
+    CHECK(result.files[0].content["name"] == photo);
 }
 
 TEST_CASE("formats without float get 16 bits for RAW-like images, unless the user chose")
@@ -223,7 +229,7 @@ TEST_CASE("the user's command line and the progress go into every job")
 {
     const Files files;
     const Rewritten result =
-        rewritten({ files.photo, "--srisp-process", "--srisp-process" }, { "/T", "srisptool x", true });
+        rewritten({ files.photo, "--srisp-process", "--srisp-process" }, { "/T", "srisptool x", true, false });
     for (const JobFile& file : result.files) {
         CHECK(file.content["command"] == "srisptool x");
         CHECK(file.content["progress"] == true);
