@@ -21,16 +21,18 @@ constexpr std::uint64_t kMostBandBytes = std::uint64_t(1) << 30;
 std::string refusal(const OIIO::ImageSpec& spec, bool tiff)
 {
     const std::string encoding = spec.get_string_attribute("oiio:ColorSpace");
+    const bool processed = !spec.get_string_attribute("unprocess:synthetic").empty();
     if (is_unprocessed(spec)) {
         if (tiff && spec.format != OIIO::TypeUInt16 && !spec.format.is_floating_point())
             return std::string("TIFF of ") + spec.format.c_str() + " values: 16 bits or float are needed";
+    } else if (processed) {
+        return "is what srisp made of a RAW-like image, display-encoded and no reference: give a RAW file";
     } else if (tiff) {
         return "TIFF without srisp's metadata may be display-encoded and is no reference: give a RAW file, or an EXR "
-               "or TIFF "
-               "that srisp wrote";
-    } else if (!OIIO::Strutil::iequals(encoding, "Linear") && !encoding.empty() &&
-               (OIIO::Strutil::istarts_with(encoding, "sRGB") || OIIO::Strutil::istarts_with(encoding, "Rec709") ||
-                OIIO::Strutil::istarts_with(encoding, "Gamma"))) {
+               "or "
+               "TIFF that srisp wrote";
+    } else if (OIIO::Strutil::istarts_with(encoding, "sRGB") || OIIO::Strutil::istarts_with(encoding, "Rec709") ||
+               OIIO::Strutil::istarts_with(encoding, "Gamma")) {
         return "is display-encoded (colour space '" + encoding + "') and no reference: give a RAW file";
     }
     if (spec.deep)
@@ -130,15 +132,30 @@ private:
     std::uint64_t m_clipped = 0;
 };
 
+/// What srisp's own images say of the camera that they imitate (metadata.cpp writes it); empty for others.
+void describe_camera_of(const OIIO::ImageSpec& spec, CameraFacts& facts)
+{
+    facts.make = spec.get_string_attribute("unprocess:reference_make");
+    facts.model = spec.get_string_attribute("unprocess:reference_model");
+    facts.iso = spec.get_float_attribute("unprocess:reference_iso");
+    facts.exposure_time_s = spec.get_float_attribute("unprocess:reference_exposure_time");
+    facts.f_number = spec.get_float_attribute("unprocess:reference_f_number");
+    spec.getattribute("unprocess:neutral", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 3), facts.as_shot_neutral.data());
+    CameraFacts::ColorMatrix matrix;
+    if (spec.getattribute("unprocess:xyz_to_camera", OIIO::TypeMatrix33, matrix.xyz_to_camera.data())) {
+        matrix.illuminant = spec.get_int_attribute("unprocess:xyz_to_camera_illuminant");
+        facts.color_matrices.push_back(matrix);
+    }
+}
+
 void describe_image(const OIIO::ImageSpec& spec, CameraFacts& facts)
 {
-    facts.make = spec.get_string_attribute("Make");
-    facts.model = spec.get_string_attribute("Model");
     facts.width = spec.width;
     facts.height = spec.height;
     const int orientation = spec.get_int_attribute("Orientation", 1);
     facts.orientation = orientation >= 1 && orientation <= 8 ? orientation : 1;
     facts.white_level = 1;
+    describe_camera_of(spec, facts);
 }
 
 } // namespace
