@@ -5,7 +5,7 @@ set -eu
 
 packages="
     cmake g++ ninja-build pkg-config
-    doctest-dev libhwy-dev libimath-dev liblcms2-dev libopenexr-dev libopenimageio-dev libraw-dev libtiff-dev libxxhash-dev
+    doctest-dev libcli11-dev libhwy-dev libimath-dev liblcms2-dev libopenexr-dev libopenimageio-dev libraw-dev libtiff-dev libxxhash-dev
     nlohmann-json3-dev
     openimageio-tools
     clang-format-14 dcraw fonts-dejavu-core libimage-exiftool-perl libraw-bin man-db python3 python3-openimageio
