@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hand_over.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <mutex>
+
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace srisp {
+
+namespace {
+
+const char kStubFormat[] = "srisp-slot-1";
+
+class Slots {
+public:
+    std::string keep(std::shared_ptr<const Slot> slot)
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        const std::string id = std::to_string(::getpid()) + "-" + std::to_string(++m_count);
+        std::string& last = m_last_of_job[slot->job];
+        m_slots.erase(last);
+        last = id;
+        m_slots[id] = std::move(slot);
+        return id;
+    }
+
+    std::shared_ptr<const Slot> find(const std::string& id)
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        const auto found = m_slots.find(id);
+        return found == m_slots.end() ? nullptr : found->second;
+    }
+
+private:
+    std::mutex m_mutex;
+    int m_count = 0;
+    std::map<std::string, std::shared_ptr<const Slot>> m_slots;
+    std::map<std::string, std::string> m_last_of_job;
+};
+
+Slots& slots()
+{
+    // Never destroyed: other threads of the host may still read while statics end.
+    static Slots& all = *new Slots;
+    return all;
+}
+
+const SlotLevel* find_level_of(const Slot* slot, int subimage, int miplevel)
+{
+    if (!slot || subimage < 0 || subimage >= static_cast<int>(slot->subimages.size()))
+        return nullptr;
+    const auto& levels = slot->subimages[subimage];
+    return miplevel >= 0 && miplevel < static_cast<int>(levels.size()) ? &levels[miplevel] : nullptr;
+}
+
+class SlotSource : public PixelSource {
+public:
+    SlotSource(const std::string& id, const std::string& name) : m_id(id), m_name(name), m_key("slot " + id) {}
+
+    bool find_level(int subimage, int miplevel, OIIO::ImageSpec& spec) override
+    {
+        const auto slot = find_slot(m_id);
+        const SlotLevel* level = find_level_of(slot.get(), subimage, miplevel);
+        if (level)
+            spec = level->spec;
+        return level != nullptr;
+    }
+
+    Status read_rows(int subimage, int miplevel, int y0, int y1, float* rows) override
+    {
+        const auto slot = find_slot(m_id);
+        const SlotLevel* level = find_level_of(slot.get(), subimage, miplevel);
+        if (!level)
+            return Error{ m_name + ": is no longer kept, a later frame has taken its place" };
+        const std::size_t row = std::size_t(level->spec.width) * level->spec.nchannels;
+        std::copy_n(level->pixels.data() + row * y0, row * (y1 - y0), rows);
+        return {};
+    }
+
+    const std::string& name() const override { return m_name; }
+    const std::string& key() const override { return m_key; }
+
+private:
+    std::string m_id, m_name, m_key;
+};
+
+} // namespace
+
+void parse_stub_name(const std::string& path, std::string& job, std::string& frame)
+{
+    const std::filesystem::path file(path);
+    const std::string name = file.filename().string();
+    const std::size_t first = std::min(name.find('.'), name.size());
+    job = (file.parent_path() / (name.substr(0, first) + ".json")).string();
+    const std::size_t second = name.find('.', first + 1);
+    frame = first < name.size() && second != std::string::npos ? name.substr(first + 1, second - first - 1) : "";
+    if (frame.find_first_not_of("-0123456789") != std::string::npos)
+        frame.clear();
+}
+
+std::string keep_slot(std::shared_ptr<const Slot> slot)
+{
+    return slots().keep(std::move(slot));
+}
+std::shared_ptr<const Slot> find_slot(const std::string& id)
+{
+    return slots().find(id);
+}
+
+std::string stub_text(const std::string& id)
+{
+    return nlohmann::ordered_json{ { "format", kStubFormat }, { "slot", id } }.dump() + "\n";
+}
+
+bool parse_stub(const std::string& text, std::string& id)
+{
+    const auto stub = nlohmann::json::parse(text, nullptr, false);
+    if (!stub.is_object() || stub.value("format", nlohmann::json()) != kStubFormat)
+        return false;
+    const nlohmann::json slot = stub.value("slot", nlohmann::json());
+    id = slot.is_string() ? slot.get<std::string>() : "";
+    return true;
+}
+
+std::unique_ptr<PixelSource> open_slot_source(const std::string& id, const std::string& name)
+{
+    return std::make_unique<SlotSource>(id, name);
+}
+
+} // namespace srisp

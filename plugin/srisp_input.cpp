@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "srisp_input.h"
+
+#include <algorithm>
+#include <exception>
+
+#include "open_name.h"
+
+namespace srisp {
+
+namespace {
+
+/// Runs a step of the reader; what libraries throw becomes an error.
+template<class Step> Status guarded(Step step)
+{
+    try {
+        return step();
+    } catch (const std::exception& thrown) {
+        return Error{ std::string("srisp: ") + thrown.what() };
+    } catch (...) {
+        return Error{ "srisp: unknown exception" };
+    }
+}
+
+} // namespace
+
+int SrispInput::supports(OIIO::string_view feature) const
+{
+    return feature == "arbitrary_metadata" || feature == "exif" || feature == "iptc" || feature == "multiimage" ||
+           feature == "mipmap";
+}
+
+bool SrispInput::valid_file(const std::string& name) const
+{
+    bool ours = false;
+    const Status looked = guarded([&]() -> Status {
+        ours = is_our_name(name);
+        return {};
+    });
+    return looked && ours;
+}
+
+bool SrispInput::open(const std::string& name, OIIO::ImageSpec& spec, const OIIO::ImageSpec& config)
+{
+    // OpenImageIO 2.4 sets "nowait" when it offers a file that nobody knows to every reader, and holds a lock meanwhile
+    // that any call of ours would wait for.
+    if (config.get_int_attribute("nowait") || !valid_file(name))
+        return fail("'" + name + "': is no recipe of srisp's");
+    close();
+    const Status opened = guarded([&]() -> Status {
+        auto image = open_name(name, config);
+        if (!image)
+            return image.error();
+        m_image = std::move(*image);
+        return {};
+    });
+    if (!opened)
+        return fail(opened.error().message);
+    if (!seek_subimage(0, 0))
+        return false;
+    spec = m_spec;
+    return true;
+}
+
+bool SrispInput::close()
+{
+    const lock_guard lock(*this);
+    m_image.reset();
+    m_subimage = m_miplevel = -1;
+    m_spec = OIIO::ImageSpec();
+    return true;
+}
+
+bool SrispInput::fail(const std::string& message) const
+{
+    errorfmt("{}", message);
+    return false;
+}
+
+int SrispInput::current_subimage() const
+{
+    const lock_guard lock(*this);
+    return m_subimage;
+}
+
+int SrispInput::current_miplevel() const
+{
+    const lock_guard lock(*this);
+    return m_miplevel;
+}
+
+bool SrispInput::seek_subimage(int subimage, int miplevel)
+{
+    const lock_guard lock(*this);
+    if (!m_image)
+        return false;
+    if (subimage == m_subimage && miplevel == m_miplevel)
+        return true;
+    bool found = false;
+    const Status sought = guarded([&]() -> Status {
+        const auto header = m_image->header(subimage, miplevel);
+        if (!header)
+            return header.error();
+        if ((found = *header != nullptr)) {
+            m_spec = **header;
+            m_subimage = subimage;
+            m_miplevel = miplevel;
+        }
+        return {};
+    });
+    return sought ? found : fail(sought.error().message);
+}
+
+void SrispInput::complete_spec()
+{
+    // A failure here is no error yet: reading pixels fails with it.
+    const Status completed = guarded([&]() -> Status {
+        if (!m_image)
+            return {};
+        const auto full = m_image->full_spec(m_subimage, m_miplevel, threads());
+        if (!full)
+            return full.error();
+        m_spec = **full;
+        return {};
+    });
+    static_cast<void>(completed);
+}
+
+const OIIO::ImageSpec& SrispInput::spec() const
+{
+    const lock_guard lock(*this);
+    // OpenImageIO calls this const; what changes is how much is known, not what.
+    const_cast<SrispInput*>(this)->complete_spec();
+    return m_spec;
+}
+
+OIIO::ImageSpec SrispInput::spec(int subimage, int miplevel)
+{
+    const lock_guard lock(*this);
+    if (!seek_subimage(subimage, miplevel))
+        return {};
+    return spec();
+}
+
+bool SrispInput::read_native_scanline(int subimage, int miplevel, int y, int z, void* data)
+{
+    return read_native_scanlines(subimage, miplevel, y, y + 1, z, data);
+}
+
+bool SrispInput::read_native_scanlines(int subimage, int miplevel, int ybegin, int yend, int, void* data)
+{
+    const lock_guard lock(*this);
+    if (!seek_subimage(subimage, miplevel))
+        return false;
+    const int y0 = ybegin - m_spec.y, y1 = std::min(yend - m_spec.y, m_spec.height);
+    if (y0 < 0 || y0 > y1)
+        return fail("scanlines " + std::to_string(ybegin) + " to " + std::to_string(yend) + " lie outside the image");
+    const int width = m_spec.width;
+    const std::size_t row = std::size_t(width) * m_spec.nchannels;
+    const Status read = guarded(
+        [&] { return m_image->read(subimage, miplevel, threads(), 0, width, y0, y1, static_cast<float*>(data), row); });
+    return read || fail(read.error().message);
+}
+
+bool SrispInput::read_native_tile(int subimage, int miplevel, int x, int y, int, void* data)
+{
+    const lock_guard lock(*this);
+    if (!seek_subimage(subimage, miplevel))
+        return false;
+    const int x0 = x - m_spec.x, y0 = y - m_spec.y;
+    if (!m_spec.tile_width || x0 < 0 || y0 < 0 || x0 >= m_spec.width || y0 >= m_spec.height)
+        return fail("the image has no tile at " + std::to_string(x) + ", " + std::to_string(y));
+    const std::size_t row = std::size_t(m_spec.tile_width) * m_spec.nchannels;
+    const int x1 = std::min(x0 + m_spec.tile_width, m_spec.width);
+    const int y1 = std::min(y0 + m_spec.tile_height, m_spec.height);
+    float* tile = static_cast<float*>(data);
+    std::fill_n(tile, row * m_spec.tile_height, 0.0f);
+    const Status read =
+        guarded([&] { return m_image->read(subimage, miplevel, threads(), x0, x1, y0, y1, tile, row); });
+    return read || fail(read.error().message);
+}
+
+} // namespace srisp

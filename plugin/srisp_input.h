@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <OpenImageIO/imageio.h>
+#include <srisp/expected.h>
+
+#include "result_image.h"
+
+namespace srisp {
+
+/// The reader: OpenImageIO's calls turned into those of ResultImage, under ImageInput's own lock.
+///
+/// `open` reads headers only, and so does spec_dimensions. The parameters belong to the metadata, and every stock
+/// program (oiiotool, iconvert, ImageBuf, ImageCache, Python) takes that from spec() right after open and never again:
+/// so spec() selects them, which decodes the photo once per process. What open itself hands out lacks only the
+/// parameters.
+class SrispInput final : public OIIO::ImageInput {
+public:
+    ~SrispInput() override { close(); }
+
+    const char* format_name() const override { return "srisp"; }
+    int supports(OIIO::string_view feature) const override;
+    bool valid_file(const std::string& name) const override;
+    bool open(const std::string& name, OIIO::ImageSpec& spec) override { return open(name, spec, OIIO::ImageSpec()); }
+    bool open(const std::string& name, OIIO::ImageSpec& spec, const OIIO::ImageSpec& config) override;
+    bool close() override;
+
+    const OIIO::ImageSpec& spec() const override;
+    OIIO::ImageSpec spec(int subimage, int miplevel) override;
+    int current_subimage() const override;
+    int current_miplevel() const override;
+    bool seek_subimage(int subimage, int miplevel) override;
+
+    bool read_native_scanline(int subimage, int miplevel, int y, int z, void* data) override;
+    bool read_native_scanlines(int subimage, int miplevel, int ybegin, int yend, int z, void* data) override;
+    bool read_native_tile(int subimage, int miplevel, int x, int y, int z, void* data) override;
+
+private:
+    bool fail(const std::string& message) const;
+    void complete_spec();
+
+    std::unique_ptr<ResultImage> m_image;
+    int m_subimage = -1, m_miplevel = -1;
+};
+
+} // namespace srisp

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "srisp_output.h"
+
+#include <algorithm>
+#include <exception>
+
+#include "job_actions.h"
+#include "open_name.h"
+#include "text_file.h"
+
+namespace srisp {
+
+int SrispOutput::supports(OIIO::string_view feature) const
+{
+    for (const char* known : { "alpha", "nchannels", "displaywindow", "origin", "negativeorigin", "tiles", "multiimage",
+                               "appendsubimage", "mipmap", "random_access", "arbitrary_metadata", "exif", "iptc" })
+        if (feature == known)
+            return true;
+    return false;
+}
+
+bool SrispOutput::fail(const std::string& message)
+{
+    errorfmt("{}", message);
+    return false;
+}
+
+Status SrispOutput::begin(const std::string& name)
+{
+    auto job = read_job(name, m_frame);
+    if (!job)
+        return Error{ "'" + name + "': srisp files hold no pixels; write EXR or TIFF (no hand-over of srisptool's: " +
+                      job.error().message + ")" };
+    m_job = *job;
+    m_path = name;
+    m_slot = std::make_shared<Slot>();
+    m_slot->job = m_job.path;
+    m_slot->frame = m_frame;
+    return {};
+}
+
+bool SrispOutput::open(const std::string& name, const OIIO::ImageSpec& spec, OpenMode mode)
+{
+    try {
+        if (spec.deep)
+            return fail(name + ": a deep image cannot be unprocessed; flatten it first");
+        if (spec.depth > 1)
+            return fail(name + ": a volume cannot be unprocessed");
+        if (mode == Create) {
+            m_slot.reset();
+            if (const Status begun = begin(name); !begun)
+                return fail(begun.error().message);
+        }
+        if (!m_slot)
+            return fail(name + ": is not open");
+        m_spec = spec;
+        m_spec.set_format(OIIO::TypeFloat);
+        m_spec.channelformats.clear();
+        if (mode != AppendMIPLevel || m_slot->subimages.empty())
+            m_slot->subimages.emplace_back();
+        m_slot->subimages.back().push_back(
+            { m_spec, std::vector<float>(std::size_t(m_spec.image_pixels()) * m_spec.nchannels) });
+        return true;
+    } catch (const std::exception& thrown) {
+        return fail(name + ": " + thrown.what());
+    }
+}
+
+bool SrispOutput::open(const std::string& name, int subimages, const OIIO::ImageSpec* specs)
+{
+    return subimages > 0 && open(name, specs[0], Create);
+}
+
+bool SrispOutput::close()
+{
+    if (!m_slot)
+        return true;
+    Status finished;
+    try {
+        finished = finish();
+    } catch (const std::exception& thrown) {
+        finished = Error{ m_path + ": " + thrown.what() };
+    }
+    m_slot.reset();
+    return finished || fail(finished.error().message);
+}
+
+Status SrispOutput::finish()
+{
+    const std::string id = keep_slot(m_slot);
+    if (m_job.action == Recipe::Action::print)
+        if (const Status printed = print_parameters(m_job, id); !printed)
+            return printed;
+    if (m_job.action == Recipe::Action::save)
+        if (const Status saved = save_parameters(m_job, m_slot->subimages[0][0].spec, m_frame); !saved)
+            return saved;
+    // A host renames what it wrote, so there must be a file even where nothing is read back.
+    return write_text_file(m_path, stub_text(id));
+}
+
+bool SrispOutput::write_scanline(int y, int z, OIIO::TypeDesc format, const void* data, OIIO::stride_t xstride)
+{
+    const int row = y - m_spec.y;
+    if (!m_slot || row < 0 || row >= m_spec.height)
+        return fail("scanline " + std::to_string(y) + " lies outside the image");
+    std::vector<unsigned char> scratch;
+    m_spec.auto_stride(xstride, format, m_spec.nchannels);
+    const auto* native = static_cast<const float*>(to_native_scanline(format, data, xstride, scratch, 0, y, z));
+    const std::size_t length = std::size_t(m_spec.width) * m_spec.nchannels;
+    std::copy_n(native, length, m_slot->subimages.back().back().pixels.data() + length * row);
+    return true;
+}
+
+bool SrispOutput::write_tile(int x, int y, int z, OIIO::TypeDesc format, const void* data, OIIO::stride_t xstride,
+                             OIIO::stride_t ystride, OIIO::stride_t zstride)
+{
+    const int x0 = x - m_spec.x, y0 = y - m_spec.y;
+    if (!m_slot || x0 < 0 || y0 < 0 || x0 >= m_spec.width || y0 >= m_spec.height)
+        return fail("the tile at " + std::to_string(x) + ", " + std::to_string(y) + " lies outside the image");
+    std::vector<unsigned char> scratch;
+    m_spec.auto_stride(xstride, ystride, zstride, format, m_spec.nchannels, m_spec.tile_width, m_spec.tile_height);
+    const auto* native =
+        static_cast<const float*>(to_native_tile(format, data, xstride, ystride, zstride, scratch, 0, x, y, z));
+    const std::size_t columns = std::min(m_spec.tile_width, m_spec.width - x0) * std::size_t(m_spec.nchannels);
+    const int rows = std::min(m_spec.tile_height, m_spec.height - y0);
+    float* target = m_slot->subimages.back().back().pixels.data();
+    for (int row = 0; row < rows; ++row)
+        std::copy_n(native + std::size_t(row) * m_spec.tile_width * m_spec.nchannels, columns,
+                    target + (std::size_t(y0 + row) * m_spec.width + x0) * m_spec.nchannels);
+    return true;
+}
+
+} // namespace srisp

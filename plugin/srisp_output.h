@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <OpenImageIO/imageio.h>
+
+#include "hand_over.h"
+#include "recipe.h"
+
+namespace srisp {
+
+/// The writer: keeps what a host writes in the memory of the process, for our reader or for the job's action (print or
+/// save parameters). Only names that belong to a job are taken.
+class SrispOutput final : public OIIO::ImageOutput {
+public:
+    ~SrispOutput() override { close(); }
+
+    const char* format_name() const override { return "srisp"; }
+    int supports(OIIO::string_view feature) const override;
+    bool open(const std::string& name, const OIIO::ImageSpec& spec, OpenMode mode) override;
+    bool open(const std::string& name, int subimages, const OIIO::ImageSpec* specs) override;
+    bool close() override;
+
+    bool write_scanline(int y, int z, OIIO::TypeDesc format, const void* data, OIIO::stride_t xstride) override;
+    bool write_tile(int x, int y, int z, OIIO::TypeDesc format, const void* data, OIIO::stride_t xstride,
+                    OIIO::stride_t ystride, OIIO::stride_t zstride) override;
+
+private:
+    bool fail(const std::string& message);
+    Status begin(const std::string& name);
+    Status finish();
+
+    std::string m_path, m_frame;
+    Recipe m_job;
+    std::shared_ptr<Slot> m_slot;
+};
+
+} // namespace srisp
