@@ -22,7 +22,7 @@ sh "$source/tools/install-deps.sh"
 [ -f "$build/CMakeCache.txt" ] || cmake -G Ninja -S "$source" -B "$build" -DCMAKE_BUILD_TYPE=Release
 # Not the tests: they take longer than all the rest.
 targets=all
-[ ! -f "$build/build.ninja" ] || targets="plugin/all tools/all"
+[ ! -f "$build/build.ninja" ] || targets="lib/all plugin/all tools/all"
 cmake --build "$build" --parallel "$(nproc)" --target $targets
 
 srisptool=$build/bin/srisptool
@@ -37,11 +37,11 @@ echo "demo: unprocessing $photo with $reference" >&2
 "$srisptool" raw.exr --srisp-process -d uint8 -o photo_again.png
 
 # What is looked at: upright, colour only, at most 640 pixels, gamma 2.2.
-view="--reorient --ch 0,1,2 --fit 640x640 --fullpixels --origin +0+0"
+view="--reorient --ch 0,1,2 --fit 640x640 --origin +0+0 --fullpixels"
 white_balance=$(tr -d ' \n' <parameters.json | sed -n 's/.*"white_balance":\[\([^],]*,[^],]*,[^],]*\)\].*/\1/p')
 channels=$(oiiotool --wildcardoff "$photo" --echo '{TOP.nchannels}' | head -n 1)
 photo_view=$view
-[ "$channels" -ge 3 ] || photo_view="--reorient --ch 0,0,0 --fit 640x640 --fullpixels --origin +0+0"
+[ "$channels" -ge 3 ] || photo_view="--reorient --ch 0,0,0 --fit 640x640 --origin +0+0 --fullpixels"
 oiiotool --wildcardoff "$photo" $photo_view -d uint8 -o 1_photo.png
 oiiotool raw.exr $view --powc 0.4545 -d uint8 -o 2_raw_like.png
 oiiotool raw.exr $view --mulc "$white_balance" --clamp:min=0:max=1 --powc 0.4545 -d uint8 -o 3_white_balanced.png

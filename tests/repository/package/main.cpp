@@ -17,8 +17,8 @@ int main(int, char** argv)
         return std::fprintf(stderr, "%s\n", (model ? reference.error() : model.error()).message.c_str()), 1;
     const auto parameters = srisp::select(**model, photo, (*reference)->thumbnail);
     const auto applier = srisp::Applier::create(**model, *parameters, srisp::Direction::reverse);
-    srisp::MutableImageView pixels { photo.rgb.data(), srisp::kThumbnailSize, srisp::kThumbnailSize, 3,
-                                     3 * srisp::kThumbnailSize };
+    srisp::MutableImageView pixels{ photo.rgb.data(), srisp::kThumbnailSize, srisp::kThumbnailSize, 3,
+                                    3 * srisp::kThumbnailSize };
     if (!(*applier)->run(pixels, pixels))
         return 1;
     std::printf("%s %s %.4f %.4f %.4f\n", (*model)->path().c_str(), (*reference)->facts.cfa_pattern.c_str(),

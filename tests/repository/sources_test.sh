@@ -1,0 +1,23 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# What holds for every source file: format, licence line, length; and that scripts parse.
+. "$(dirname "$0")/check.sh"
+cd "$source" || exit 1
+find lib plugin ocio tools tests configs .ci CMakeLists.txt -type f ! -path '*/models/*' ! -path '*/sample/*' >"$scratch/files"
+grep -E '\.(cpp|h)$' "$scratch/files" >"$scratch/cpp"
+grep -E '\.(cpp|h|cu|sh|py|cmake|in|map)$|CMakeLists\.txt$|^\.ci/run$' "$scratch/files" >"$scratch/sources"
+
+has_licence() { ! xargs -d '\n' grep -L 'SPDX-License-Identifier: Apache-2.0' <"$scratch/sources" | grep .; }
+fits() { ! xargs -d '\n' -n 1 wc -l <"$scratch/sources" | awk '$1 > 500' | grep .; }
+formatted() { xargs -d '\n' clang-format-14 --dry-run -Werror <"$scratch/cpp"; }
+parses() { grep '\.sh$' "$scratch/sources" | while read -r file; do sh -n "$file" || return 1; done; }
+
+check "every source file has its SPDX line" has_licence
+check "no source file is longer than 500 lines" fits
+check "every shell script parses" parses
+if command -v clang-format-14 >/dev/null; then
+    check "clang-format-14 would change nothing" formatted
+else
+    echo "SKIPPED tests/repository/sources_test.sh: needs clang-format-14" >&2
+fi
+finish
