@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Damages DNGs and other files at random (same seed, same damage) and decodes them: whatever they hold, the outcome is
+// a reference with values in [0,1] or an error, in bounded time and memory. Most useful with SRISP_SANITIZE. Usage:
+// reference_fuzz [rounds] [seed] [file…]; files are damaged as well as the DNGs made here.
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include "dng_levels.h"
+#include "file_bytes.h"
+#include "float_dng.h"
+#include "lib/src/synthetic_dng.h"
+#include "libraw_decoder.h"
+#include "mosaic_thumbnail.h"
+
+using namespace srisp;
+
+namespace {
+
+using T = SyntheticDng;
+
+std::vector<std::string> seeds_of_kind()
+{
+    const auto noise = [](int x, int y, int s) { return (x * 7919 + y * 104729 + s * 31) % 65536; };
+    SyntheticDng plain, levels, linear, floats, big;
+    big.big_endian = true;
+    levels.set(50829, T::kLong, { 1, 2, 29, 39 })
+        .set(50713, T::kShort, { 2, 2 })
+        .set(50714, T::kRational, { 1, 2, 3, 4 });
+    levels.set(50712, T::kShort, { 0, 100, 1000 }).set(274, T::kShort, { 6 }).set(51041, T::kDouble, { 1e-4, 1e-7 });
+    linear.linear();
+    floats.linear().fill_float([](int x, int y, int s) { return float(x + y + s) / 80; }, 3);
+    return { plain.fill(noise).bytes(), levels.fill(noise).bytes(), linear.fill(noise, 3).bytes(), floats.bytes(),
+             big.fill(noise).bytes() };
+}
+
+/// A few bytes, most of them among the tags, set to values that tend to break parsers; or the end cut off.
+std::string damaged(std::string bytes, std::mt19937& random)
+{
+    static const unsigned char kValues[] = { 0, 1, 2, 0x7f, 0x80, 0xff };
+    const int count = 1 + int(random() % 4);
+    for (int i = 0; i < count; ++i) {
+        const std::size_t range = random() % 4 == 0 ? bytes.size() : std::min<std::size_t>(bytes.size(), 400);
+        char& byte = bytes[random() % range];
+        byte = random() % 2 ? char(kValues[random() % sizeof kValues]) : char(random());
+    }
+    if (random() % 8 == 0)
+        bytes.resize(1 + random() % bytes.size());
+    return bytes;
+}
+
+/// Decodes as load_reference does; false if values are not in [0,1].
+bool decode(const std::string& bytes, int& decoded)
+{
+    // An allocation of the exact size, so that a sanitizer sees every read beyond it.
+    std::shared_ptr<unsigned char[]> copy(new unsigned char[bytes.size()]);
+    std::copy(bytes.begin(), bytes.end(), copy.get());
+    const FileBytes file{ copy, bytes.size() };
+    const auto dng = describe_dng(file);
+    if (!dng)
+        return !dng.error().message.empty();
+    const DngDescription* description = *dng ? &**dng : nullptr;
+    const auto image = description && description->is_float ? decode_float_dng(file, *description)
+                                                            : decode_with_libraw(file, description);
+    if (!image)
+        return !image.error().message.empty();
+    ++decoded;
+    for (const float value : raw_thumbnail(image->pixels).rgb)
+        if (!(value >= 0 && value <= 1))
+            return false;
+    return true;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    const int rounds = argc > 1 ? std::atoi(argv[1]) : 3000;
+    std::mt19937 random(argc > 2 ? unsigned(std::atoi(argv[2])) : 1);
+    std::vector<std::string> seeds = seeds_of_kind();
+    for (int i = 3; i < argc; ++i) {
+        std::ifstream in(argv[i], std::ios::binary);
+        seeds.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+    }
+    int decoded = 0;
+    for (int round = 0; round < rounds; ++round)
+        if (!decode(damaged(seeds[std::size_t(round) % seeds.size()], random), decoded)) {
+            std::fprintf(stderr, "round %d: a value is not in [0,1], or an error has no message\n", round);
+            return 1;
+        }
+    std::printf("%d damaged files: %d decoded, %d refused\n", rounds, decoded, rounds - decoded);
+    return decoded > 0 && decoded < rounds ? 0 : 1;
+}
