@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # `cpack` in the build folder makes one Debian package. Configure with -DCMAKE_INSTALL_PREFIX=/usr for Debian's own folders
 # (lib/x86_64-linux-gnu); others work as well.
-install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
 
