@@ -2,6 +2,7 @@
 #include "chooser.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <list>
 #include <map>
 #include <mutex>
@@ -137,6 +138,9 @@ Expected<Chooser> Chooser::create(const Recipe& recipe, const std::string& photo
         if (!reference)
             return reference.error();
         chooser.m_reference = *reference;
+        std::error_code ignored;
+        if (!std::filesystem::exists(chooser.m_reference, ignored))
+            return Error{ "reference '" + chooser.m_reference + "': No such file or directory" };
     }
     return chooser;
 }

@@ -2,7 +2,6 @@
 #include "recipe.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -80,6 +79,47 @@ Status set_action(Recipe& recipe, const std::string& name)
     recipe.action = found->second;
     return {};
 }
+
+Status set_reference(Recipe& recipe, const std::string& pattern)
+{
+    recipe.reference = pattern;
+    return {};
+}
+
+Status set_model(Recipe& recipe, const std::string& name)
+{
+    recipe.model = name;
+    return {};
+}
+
+Status set_seed(Recipe& recipe, const std::string& digits)
+{
+    if (digits.empty() || digits.size() > 19 || digits.find_first_not_of("0123456789") != std::string::npos)
+        return Error{ "seed '" + digits + "' is not a whole number from 0" };
+    recipe.seed = std::stoull(digits);
+    return {};
+}
+
+Status set_lazy(Recipe& recipe, const std::string& flag)
+{
+    if (flag != "0" && flag != "1")
+        return Error{ "lazy '" + flag + "' is neither 0 nor 1" };
+    recipe.lazy = flag == "1";
+    return {};
+}
+
+/// What a query or a hint may set.
+struct Setting {
+    const char* key;
+    Status (*set)(Recipe& recipe, const std::string& value);
+};
+const Setting kSettings[] = { { "reference", set_reference },
+                              { "model", set_model },
+                              { "params", read_parameters },
+                              { "input", set_input },
+                              { "seed", set_seed },
+                              { "direction", set_direction },
+                              { "lazy", set_lazy } };
 
 /// One key of a recipe: how its value is taken.
 using Taker = std::function<Status(const json& value)>;
@@ -219,29 +259,20 @@ Expected<Recipe> recipe_from_json(const std::string& text, const std::string& pa
 
 Status set_by_text(Recipe& recipe, const std::string& key, const std::string& value)
 {
-    if (key == "reference")
-        recipe.reference = value;
-    else if (key == "model")
-        recipe.model = value;
-    else if (key == "params")
-        return read_parameters(recipe, value);
-    else if (key == "input")
-        return set_input(recipe, value);
-    else if (key == "direction")
-        return set_direction(recipe, value);
-    else if (key == "seed") {
-        char* end = nullptr;
-        recipe.seed = std::strtoull(value.c_str(), &end, 10);
-        if (value.empty() || value.find_first_not_of("0123456789") != std::string::npos)
-            return Error{ "seed '" + value + "' is not a whole number from 0" };
-    } else
-        return Error{ "unknown option '" + key + "'" + near_names(key, settable_keys()) };
-    return {};
+    for (const Setting& setting : kSettings)
+        if (key == setting.key)
+            return setting.set(recipe, value);
+    return Error{ "unknown option '" + key + "'" + near_names(key, settable_keys()) };
 }
 
 const std::vector<std::string>& settable_keys()
 {
-    static const std::vector<std::string> keys = { "reference", "model", "params", "input", "seed", "direction" };
+    static const std::vector<std::string> keys = [] {
+        std::vector<std::string> names;
+        for (const Setting& setting : kSettings)
+            names.push_back(setting.key);
+        return names;
+    }();
     return keys;
 }
 

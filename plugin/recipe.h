@@ -23,6 +23,7 @@ struct Recipe {
     std::string parameters_where; ///< what that text is called in messages
     InputEncoding input = InputEncoding::automatic;
     std::uint64_t seed = 0;
+    bool lazy = false;     ///< parameters are selected when somebody asks for them, not on opening
     bool hold = false;     ///< the first image's parameters hold for all later ones of this process
     bool progress = false; ///< on stderr, after two seconds
     bool notes = false;    ///< what was assumed or clipped, on stderr
@@ -40,7 +41,7 @@ Expected<Recipe> recipe_from_json(const std::string& text, const std::string& pa
 /// Sets one value from a text: `key` is one of settable_keys(). Paths are relative to the working folder.
 Status set_by_text(Recipe& recipe, const std::string& key, const std::string& value);
 
-/// reference, model, params, input, seed, direction: what a query or a configuration hint may say.
+/// reference, model, params, input, seed, direction, lazy: what a query or a configuration hint may say.
 const std::vector<std::string>& settable_keys();
 
 /// Whether parameters can be had at all. `where` names the recipe in the message.

@@ -21,6 +21,9 @@ public:
     static Expected<std::unique_ptr<ResultImage>> open(const Recipe& recipe, std::unique_ptr<PixelSource> source,
                                                        const OIIO::ImageSpec& config);
 
+    /// Whether parameters are to be selected as late as possible.
+    bool is_lazy() const { return m_recipe.lazy; }
+
     /// The spec without decoding anything: all but the parameters where these must be selected first. Null: there is no
     /// such level.
     Expected<const OIIO::ImageSpec*> header(int subimage, int miplevel);

@@ -97,40 +97,36 @@ bool SrispInput::seek_subimage(int subimage, int miplevel)
     if (subimage == m_subimage && miplevel == m_miplevel)
         return true;
     bool found = false;
-    const Status sought = guarded([&]() -> Status {
-        const auto header = m_image->header(subimage, miplevel);
-        if (!header)
-            return header.error();
-        if ((found = *header != nullptr)) {
-            m_spec = **header;
-            m_subimage = subimage;
-            m_miplevel = miplevel;
-        }
-        return {};
-    });
+    const Status sought = take_spec(subimage, miplevel, !m_image->is_lazy(), found);
+    if (found) {
+        m_subimage = subimage;
+        m_miplevel = miplevel;
+    }
     return sought ? found : fail(sought.error().message);
 }
 
-void SrispInput::complete_spec()
+Status SrispInput::take_spec(int subimage, int miplevel, bool full, bool& found)
 {
-    // A failure here is no error yet: reading pixels fails with it.
-    const Status completed = guarded([&]() -> Status {
-        if (!m_image)
-            return {};
-        const auto full = m_image->full_spec(m_subimage, m_miplevel, threads());
-        if (!full)
-            return full.error();
-        m_spec = **full;
+    return guarded([&]() -> Status {
+        auto spec = m_image->header(subimage, miplevel);
+        if (spec && *spec && full)
+            spec = m_image->full_spec(subimage, miplevel, threads());
+        if (!spec)
+            return spec.error();
+        if ((found = *spec != nullptr))
+            m_spec = **spec;
         return {};
     });
-    static_cast<void>(completed);
 }
 
 const OIIO::ImageSpec& SrispInput::spec() const
 {
     const lock_guard lock(*this);
-    // OpenImageIO calls this const; what changes is how much is known, not what.
-    const_cast<SrispInput*>(this)->complete_spec();
+    // OpenImageIO calls this const; what changes is how much is known, not what. A failure is no error yet: reading
+    // pixels fails with it.
+    bool found = false;
+    if (m_image && m_image->is_lazy())
+        static_cast<void>(const_cast<SrispInput*>(this)->take_spec(m_subimage, m_miplevel, true, found));
     return m_spec;
 }
 

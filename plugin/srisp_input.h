@@ -13,10 +13,11 @@ namespace srisp {
 
 /// The reader: OpenImageIO's calls turned into those of ResultImage, under ImageInput's own lock.
 ///
-/// `open` reads headers only, and so does spec_dimensions. The parameters belong to the metadata, and every stock
-/// program (oiiotool, iconvert, ImageBuf, ImageCache, Python) takes that from spec() right after open and never again:
-/// so spec() selects them, which decodes the photo once per process. What open itself hands out lacks only the
-/// parameters.
+/// The parameters belong to the metadata, and OpenImageIO 2.4's ImageCache (oiiotool, maketx, ImageBuf) takes that from
+/// what open and seek_subimage leave, never from spec(): so these select the parameters, which decodes photo and
+/// reference once per process; pixels are computed when they are read. Where parameters are given, held or known
+/// already, only headers are read; `lazy=1` in a query or hint asks for that always, and then the parameters come with
+/// spec() or the pixels.
 class SrispInput final : public OIIO::ImageInput {
 public:
     ~SrispInput() override { close(); }
@@ -40,7 +41,7 @@ public:
 
 private:
     bool fail(const std::string& message) const;
-    void complete_spec();
+    Status take_spec(int subimage, int miplevel, bool full, bool& found);
 
     std::unique_ptr<ResultImage> m_image;
     int m_subimage = -1, m_miplevel = -1;

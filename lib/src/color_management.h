@@ -10,7 +10,7 @@
 
 namespace srisp {
 
-/// Linear light in [0,1] → display-encoded sRGB (IEC 61966-2-1), by a table; within 4e-7. Values outside are clipped.
+/// Linear light in [0,1] → display-encoded sRGB (IEC 61966-2-1), by a table; within 5e-7. Values outside are clipped.
 float srgb_encoded(float linear);
 
 /// Colours of an embedded ICC profile → display-encoded sRGB, relative colorimetric. Immutable.

@@ -126,8 +126,9 @@ TEST_CASE("EXR also keeps the camera's facts, the name of the colour space and w
     const auto* neutral = read.find_attribute("adoptedNeutral");
     REQUIRE(neutral);
     // camera neutral (1/2.0123, 1, 1/1.51) through the inverse of that matrix
-    CHECK(neutral->get_float_indexed(0) == doctest::Approx(0.3435).epsilon(0.01));
-    CHECK(neutral->get_float_indexed(1) == doctest::Approx(0.3663).epsilon(0.01));
+    const float* xy = static_cast<const float*>(neutral->data());
+    CHECK(xy[0] == doctest::Approx(0.34821).epsilon(1e-4));
+    CHECK(xy[1] == doctest::Approx(0.35614).epsilon(1e-4));
     CHECK(read.get_string_attribute("Make") == "Apple");
     CHECK(read.get_int_attribute("Orientation") == 6);
 }
@@ -189,7 +190,8 @@ TEST_CASE("images without a record, or with a damaged one, say so")
     damaged.attribute("ImageDescription", line);
     const auto misspelt = recorded_parameters(damaged, "edited.jpg");
     REQUIRE(!misspelt);
-    CHECK(misspelt.error().message.find("edited.jpg: recorded parameters") == 0);
+    CHECK(misspelt.error().message.find("edited.jpg: recorded parameters") != std::string::npos);
+    CHECK(misspelt.error().message.find("'gain'") != std::string::npos);
 }
 
 TEST_CASE("a header without parameters still says what the image is")

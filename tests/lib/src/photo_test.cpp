@@ -225,7 +225,7 @@ TEST_CASE("linear images are encoded with the sRGB curve")
     CHECK(rgb_of(kept, { 0.18f, 0, 0 })[0] == 0.18f);
 }
 
-TEST_CASE("the sRGB curve's table is exact to 4e-7")
+TEST_CASE("the sRGB curve's table is exact to 5e-7")
 {
     double worst = 0;
     for (int i = 0; i <= 1000003; ++i) {
@@ -233,7 +233,7 @@ TEST_CASE("the sRGB curve's table is exact to 4e-7")
         worst = std::max(worst, std::fabs(srgb_encoded(v) - srgb(v)));
     }
     INFO("largest difference " << worst);
-    CHECK(worst < 4e-7);
+    CHECK(worst < 5e-7);
 }
 
 TEST_CASE("values outside the range are clipped, those that are no numbers become 0, both are counted")
