@@ -7,7 +7,8 @@ page_of() {
     page=$prefix/share/man/man1/$1.1
     man --warnings -E UTF-8 -l -Tutf8 "$page" >"$scratch/page" 2>"$scratch/warnings" || return 1
     cat "$scratch/warnings"
-    [ ! -s "$scratch/warnings" ] && grep -q -e '--srisp-unprocess' "$scratch/page" && grep -q '^NAME' "$scratch/page"
+    # The parser of apropos reads the title.
+    [ ! -s "$scratch/warnings" ] && lexgrog "$page" && grep -qF -e '--srisp-unprocess' "$scratch/page"
 }
 
 for tool in "$prefix"/bin/*; do

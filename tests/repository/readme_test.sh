@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Runs every command that README and docs/ show (but contributing.md, which .ci/run is about): each fenced block of sh (or python) in a shell of its own, one after the
-# other in one scratch folder, where the files have the names that the text uses.
+# Runs every command that README and docs/ show (but contributing.md: .ci/run does what it says): each fenced block of sh
+# or python in a shell of its own, one after the other in one scratch folder with files of the names that the text uses.
 . "$(dirname "$0")/check.sh"
 sample=$source/configs/sample
 work=$scratch/work
@@ -34,15 +34,15 @@ blocks_of() {
         inside { print >file }' "$source/$1"
 }
 
-run_block() {
-    cd "$work" || return 1
+run_block() (
+    cd "$work" || exit 1
     export HOME="$scratch/home"
     export PATH="$HOME/srisp/bin:$PATH"
     case $1 in
         sh) sh -ex "$2" </dev/null ;;
         python) OIIO_LIBRARY_PATH="$HOME/srisp/lib/srisp" /usr/bin/python3 "$2" </dev/null ;;
     esac
-}
+)
 
 check "README has at most 180 lines" test "$(wc -l <"$source/README.md")" -le 180
 for document in README.md docs/artists.md docs/researchers.md docs/developers.md; do
