@@ -85,6 +85,23 @@ TEST_CASE("All four Bayer phases give each colour its own sites, small (demosaic
         }
 }
 
+TEST_CASE("X-Trans patterns of 6 x 6 work from 768 px a side")
+{
+    const std::string letters = "GBGGRGRGRBGBGBGGRGGRGGBGBGBRGRGRGGBG";
+    SyntheticDng dng;
+    dng.resize(800, 770).set(33421, T::kShort, { 6, 6 }).set(33422, T::kByte, pattern_tag(letters));
+    dng.fill([&](int x, int y, int) {
+        const char letter = letters[std::size_t(y % 6 * 6 + x % 6)];
+        return std::round(65535 * kColors[letter == 'R' ? 0 : letter == 'G' ? 1 : 2]);
+    });
+    const Reference reference = loaded(dng);
+    CHECK(reference.facts.cfa_pattern == letters);
+    check_every_pixel(reference.thumbnail, { 0.5, 0.25, 0.75 });
+
+    dng.resize(100, 100);
+    CHECK(refusal(dng.bytes()) == "sensor of 100 x 100 pixels: at least 768 a side are needed for its filters");
+}
+
 TEST_CASE("Big-endian files read the same")
 {
     SyntheticDng little, big;
