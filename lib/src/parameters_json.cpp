@@ -27,9 +27,9 @@ std::string number(float value)
 
 template<class Values> std::string list(const Values& values)
 {
-    std::string text;
+    std::string text = "[";
     for (const float value : values)
-        text += (text.empty() ? "[" : ", ") + number(value);
+        text += (text.size() > 1 ? ", " : "") + number(value);
     return text + "]";
 }
 

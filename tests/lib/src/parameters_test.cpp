@@ -85,6 +85,12 @@ TEST_CASE("the pretty form has one line per value, for people who edit it")
     CHECK(text.find("\n    \"tone\": [[") != std::string::npos);
 }
 
+TEST_CASE("parameters without weights are JSON, too")
+{
+    CHECK(json::parse(to_json(Parameters()))["weights"]["gain"] == json::array());
+    REQUIRE(parameters_from_json(to_json(Parameters()), "test"));
+}
+
 TEST_CASE("an edited gain and white balance win as written")
 {
     json object = json::parse(to_json(random_parameters(1)));
