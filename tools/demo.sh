@@ -18,7 +18,7 @@ for file in "$photo" "$reference"; do
     [ -r "$file" ] || { echo "demo: cannot read '$file'" >&2; exit 1; }
 done
 
-sh "$source/tools/install-deps.sh"
+sh "$source/tools/install-deps.sh" build
 [ -f "$build/CMakeCache.txt" ] || cmake -G Ninja -S "$source" -B "$build" -DCMAKE_BUILD_TYPE=Release
 # Not the tests: they take longer than all the rest.
 targets=all

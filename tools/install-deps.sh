@@ -1,15 +1,21 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Installs the Debian packages that building, testing and running srisp need. Says nothing where all are there.
+# Installs the Debian packages that srisp needs. Says nothing where all are there.
+#   sh tools/install-deps.sh [build]     build: what building and running needs, without what only the tests need
 set -eu
 
 packages="
     cmake g++ ninja-build pkg-config
-    doctest-dev libcli11-dev libhwy-dev libimath-dev liblcms2-dev libopenexr-dev libopenimageio-dev libraw-dev libtiff-dev libxxhash-dev
-    nlohmann-json3-dev
-    openimageio-tools
-    clang-format-14 dcraw fonts-dejavu-core libimage-exiftool-perl libraw-bin man-db python3 python3-openimageio
+    doctest-dev libcli11-dev libhwy-dev libimath-dev liblcms2-dev libopenexr-dev libopenimageio-dev libraw-dev libtiff-dev
+    libxxhash-dev nlohmann-json3-dev
+    openimageio-tools fonts-dejavu-core
 "
+test_packages="clang-format-14 dcraw libimage-exiftool-perl libraw-bin man-db python3 python3-openimageio"
+case "$#${1:-}" in
+    0) packages="$packages $test_packages" ;;
+    1build) ;;
+    *) echo "usage: sh tools/install-deps.sh [build]" >&2; exit 2 ;;
+esac
 
 if ! command -v dpkg-query >/dev/null; then
     echo "install-deps: this is not Debian; install the equivalents of:" $packages >&2
