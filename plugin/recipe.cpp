@@ -215,6 +215,7 @@ std::map<std::string, Taker> takers(Recipe& recipe, const fs::path& folder, bool
         { "hold", take_flag(recipe.hold) },
         { "progress", take_flag(recipe.progress) },
         { "notes", take_flag(recipe.notes) },
+        { "command", take_text(recipe.command) },
     };
     if (is_job) {
         keys["action"] = take_text([&](const std::string& name) { return set_action(recipe, name); });

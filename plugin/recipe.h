@@ -28,9 +28,10 @@ struct Recipe {
     bool progress = false; ///< on stderr, after two seconds
     bool notes = false;    ///< what was assumed or clipped, on stderr
     Action action = Action::apply;
-    std::string file; ///< where `save` writes
-    std::string name; ///< what a handed-over image is called: in print's output and where seed chooses a reference
-    std::string path; ///< of the recipe or job itself; key of `hold`
+    std::string file;    ///< where `save` writes
+    std::string name;    ///< what a handed-over image is called: in print's output and where seed chooses a reference
+    std::string command; ///< what the user typed; recorded in the result where srisptool says it
+    std::string path;    ///< of the recipe or job itself; key of `hold`
 };
 
 /// Reads a recipe (`is_job` false) or job from its JSON text. `path` is where it lies: paths in it are relative to its
