@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: Apache-2.0
+# OpenImageIO loads plugins into other people's programs, for all to see.
+. "${0%/*}/setup.sh"
+
+module=$OIIO_LIBRARY_PATH/srisp.imageio.so
+printf '%s\n' srisp_imageio_library_version srisp_imageio_version srisp_input_extensions srisp_input_imageio_create \
+    srisp_output_extensions srisp_output_imageio_create >expected.txt
+nm -D --defined-only "$module" | awk '{ print $3 }' | sort >exported.txt
+check "nothing but the entry points is exported" diff expected.txt exported.txt
+check "neither LibTorch nor OpenColorIO is needed" sh -c '! ldd "$1" | grep -i torch && ! readelf -d "$1" | grep -i OpenColorIO' - "$module"
+check "the format is listed" sh -c "oiiotool --list-formats | grep -q 'srisp'"
+finish
