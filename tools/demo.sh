@@ -59,5 +59,5 @@ captioned 4_photo_again.png "the photo again, by the forward pipeline"
 oiiotool 1_photo.png 2_raw_like.png 3_white_balanced.png 4_photo_again.png --mosaic:pad=8 2x2 -d uint8 -o sheet.png
 
 echo "demo: the sheet of pictures   $out/sheet.png"
-echo "demo: the RAW-like image      $out/raw.exr (half or float, linear camera RGB)"
+echo "demo: the RAW-like image      $out/raw.exr (float, linear camera RGB)"
 echo "demo: its parameters          $out/parameters.json"
