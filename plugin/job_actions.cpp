@@ -2,6 +2,7 @@
 #include "job_actions.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <regex>
 
 #include <nlohmann/json.hpp>
@@ -38,7 +39,9 @@ Status print_parameters(const Recipe& job, const std::string& slot_id)
     const auto choice = (*image)->choice(0, 0);
     if (!choice)
         return choice.error();
-    const std::string name = nlohmann::json(job.name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const auto slot = find_slot(slot_id);
+    const std::string image_name = with_frame(job.name, slot ? slot->frame : "");
+    const std::string name = nlohmann::json(image_name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     // to_json gives an object; the name goes in front of its first key.
     const std::string line = "{\"image\": " + name + ", " + to_json((*choice)->parameters, -1).substr(1) + "\n";
     if (std::fputs(line.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
@@ -51,7 +54,10 @@ Status save_parameters(const Recipe& job, const OIIO::ImageSpec& spec, const std
     const auto parameters = recorded_parameters(spec, job.name);
     if (!parameters)
         return parameters.error();
-    const Status written = write_text_file(with_frame(job.file, frame), to_json(*parameters) + "\n");
+    // Folders are literal: they may well hold '#' or '%20d'.
+    std::filesystem::path file = job.file;
+    file.replace_filename(with_frame(file.filename().string(), frame));
+    const Status written = write_text_file(file.string(), to_json(*parameters) + "\n");
     return written ? written : Status(Error{ "parameters " + written.error().message });
 }
 

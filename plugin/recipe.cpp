@@ -47,6 +47,9 @@ Status read_parameters(Recipe& recipe, const std::string& path)
     if (!text)
         return Error{ "parameters " + text.error().message };
     recipe.parameters = *text;
+    // What --srisp-params printed may be replayed as it is: the image's name is there for people.
+    if (json printed = json::parse(*text, nullptr, false); printed.is_object() && printed.erase("image") > 0)
+        recipe.parameters = printed.dump();
     recipe.parameters_where = "parameters '" + path + "'";
     return {};
 }

@@ -16,12 +16,14 @@ $tool -i "$photo" --srisp-unprocess "$reference" -o e.exr
 check "-i is as good as a name" same a.exr e.exr
 $tool --evaloff "$photo" --dup --srisp-unprocess "$reference" -o f.exr
 check "with evaluation off too" same a.exr f.exr
-for option in "-d uint8" "-d uint10" --autocc --autotrim --dither --native --autoorient "--tile 64 64" "--compression zip" \
+for option in "-d uint8" "-d uint10" --autotrim --dither --native --autoorient "--tile 64 64" "--compression zip" \
     --no-autopremult -a --scanline "--planarconfig separate" --noautocrop "--threads 1" --metamerge; do
     # shellcheck disable=SC2086
     $tool $option "$photo" --dup --pop --srisp-unprocess "$reference" -o:datatype=float:autocc=0 g.exr
     check "$option leaves the hand-over alone" same a.exr g.exr
 done
+$tool --autocc "$photo" --srisp-unprocess "$reference" -o:autocc=0 g.exr
+check "--autocc linearises the photo before, and is nearly undone" idiff -fail 0.0001 -warn 0.0001 a.exr g.exr
 
 $tool "$photo" --srisp-unprocess "$reference" -o h1.exr --srisp-process -o h2.exr
 $tool a.exr --srisp-process -o h3.exr
@@ -37,8 +39,8 @@ $tool "$photo" flipped.tif --srisp-unprocess "$reference" --swap --srisp-unproce
 check "an image from the middle of the stack" same a.exr i.exr
 $tool "$photo" --label shot --flip shot --srisp-unprocess "$reference" -o j.exr
 check "a labelled image" same a.exr j.exr
-$tool --over "$photo" "$photo" --srisp-unprocess "$reference" -o k.exr 2>/dev/null
-oiiotool --over "$photo" "$photo" -o over.tif
+$tool --add "$photo" "$photo" --srisp-unprocess "$reference" -o k.exr
+oiiotool --add "$photo" "$photo" -d float -o over.tif
 $tool over.tif --srisp-unprocess "$reference" -o l.exr
 check "a command that waits for its second image goes before ours" same k.exr l.exr
 $tool --for i 0,2 "$photo" --srisp-unprocess "$reference" --endfor --absdiff -o zero.exr

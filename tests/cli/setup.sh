@@ -17,11 +17,7 @@ cd "$scratch" || exit 1
 
 # same A B: the pixels are equal to the bit.
 same() {
-    first=$(oiiotool --hash "$1" | sed 's/.*SHA-1: //')
-    second=$(oiiotool --hash "$2" | sed 's/.*SHA-1: //')
-    [ -n "$first" ] && [ "$first" = "$second" ] && return 0
     idiff -fail 0 -warn 0 "$1" "$2"
-    return 1
 }
 
 # exits CODE COMMAND…

@@ -6,6 +6,7 @@
 #include <near_names.h>
 
 #include "../common/failure.h"
+#include "frame_pattern.h"
 #include "inputs.h"
 #include "modifiers.h"
 
@@ -56,7 +57,7 @@ nlohmann::json job_of(const Step& step)
             set_choice(job, name, modifier, value);
     }
     if (std::string(command.action) == "save") {
-        job["file"] = output_path(name, step.words[1]);
+        job["file"] = frame_pattern_of_file(output_path(name, step.words[1]));
     } else if (command.argument && step.words[1] != kWithoutReference) {
         job["reference"] = reference_input(name, step.words[1]);
     } else if (command.argument && !job.contains("parameters")) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "../common/failure.h"
+#include "frame_pattern.h"
 #include "modifiers.h"
 #include "output_depth.h"
 
@@ -54,7 +55,7 @@ private:
     void note_image(const std::string& name)
     {
         m_any_image = true;
-        m_image_name = name;
+        m_image_name = m_wildcards ? frame_pattern_of_image(name) : name;
     }
 
     void note_command(const Step& step, std::vector<std::string>& words)
@@ -66,6 +67,8 @@ private:
             note_image(role == Role::reads && words.size() > 1 ? words[1] : "");
         if (step.is_named("evaloff") || step.is_named("evalon"))
             m_evaluates = step.is_named("evalon");
+        else if (step.is_named("wildcardoff") || step.is_named("wildcardon"))
+            m_wildcards = step.is_named("wildcardon");
         else if (step.is_named("n"))
             m_dry_run = true;
         else if (step.is_named("d"))
@@ -177,11 +180,12 @@ private:
     int m_jobs = 0;
     std::vector<std::string> m_labels;
     bool m_evaluates = true;
+    bool m_wildcards = true;
     bool m_sticky = false; ///< something changes how images are read
     bool m_acted = false;  ///< a command may be waiting for the next image, or run conditionally
     bool m_any_image = false;
-    std::string m_image_name; ///< of the last image that was read, as typed
-    bool m_raw = false; ///< the last of our commands made a RAW-like image
+    std::string m_image_name; ///< of the last image that was read
+    bool m_raw = false;       ///< the last of our commands made a RAW-like image
     bool m_depth_given = false;
     bool m_dry_run = false;
 };

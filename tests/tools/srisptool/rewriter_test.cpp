@@ -110,7 +110,7 @@ TEST_CASE("printing and saving parameters leave the image on the stack")
                                    { kOut, "/T/3.{FRAME_NUMBER}.srisp", "-o", "raw.exr" } }));
     CHECK(result.files[0].content["action"] == "print");
     CHECK(result.files[2].content["action"] == "save");
-    CHECK(result.files[2].content["file"] == files.scratch.path("p.#.json"));
+    CHECK(result.files[2].content["file"] == files.scratch.path("p.%04d.json"));
 }
 
 TEST_CASE("where evaluation is off it is turned on for the hand-over only")
@@ -182,7 +182,15 @@ TEST_CASE("names of the user never stand in words that srisptool adds")
     const Rewritten result = rewritten({ photo, "--srisp-unprocess", reference, "--srisp-params", reference });
     CHECK(result.words == joined({ { photo }, hand_over("1"), { kOut, "/T/2.{FRAME_NUMBER}.srisp" } }));
     CHECK(result.files[0].content["reference"] == reference);
-    CHECK(result.files[0].content["name"] == photo);
+}
+
+TEST_CASE("a job knows what its image is called, with the frame wildcard as printf has it")
+{
+    const auto name = [](const Words& words) { return rewritten(words).files[0].content["name"]; };
+    CHECK(name({ "s.#.tif", "--srisp-process" }) == "s.%04d.tif");
+    CHECK(name({ "--wildcardoff", "s.#.tif", "--srisp-process" }) == "s.#.tif");
+    CHECK(name({ "a.tif", "-i:ch=R", "b.tif", "--srisp-process" }) == "b.tif");
+    CHECK(!rewritten({ "a.tif", "--create", "1x1", "3", "--srisp-process" }).files[0].content.contains("name"));
 }
 
 TEST_CASE("formats without float get 16 bits for RAW-like images, unless the user chose")
