@@ -34,7 +34,7 @@ case $reference in /*) ;; *) reference=$OLDPWD/$reference ;; esac
 
 echo "demo: unprocessing $photo with $reference" >&2
 "$srisptool" --wildcardoff "$photo" --srisp-unprocess "$reference" --srisp-save-params parameters.json -o raw.exr
-"$srisptool" raw.exr --srisp-process -d uint8 -o photo_again.png
+"$srisptool" raw.exr --srisp-process --reorient -d uint8 -o photo_again.png
 
 # What is looked at: upright, colour only, at most 640 pixels, gamma 2.2.
 view="--reorient --ch 0,1,2 --fit 640x640 --origin +0+0 --fullpixels"
