@@ -14,8 +14,8 @@ namespace srisp {
 /// name, …}`.
 Status print_parameters(const Recipe& job, const std::string& slot_id);
 
-/// Writes the parameters recorded in an image to the job's `file`, in whose last part `####` or `%04d` is replaced by the
-/// frame number.
+/// Writes the parameters recorded in an image to the job's `file`, in whose last part `####` or `%04d` is replaced by
+/// the frame number.
 Status save_parameters(const Recipe& job, const OIIO::ImageSpec& spec, const std::string& frame);
 
 /// `pattern` with a run of '#' or one %d, %0Nd replaced by the frame number, padded with zeros.
