@@ -80,10 +80,10 @@ void ResultImage::record(Level& level, const Choice& choice) const
     notes.insert(notes.end(), choice.notes.begin(), choice.notes.end());
     if (!notes.empty())
         level.result.attribute("unprocess:notes", OIIO::Strutil::join(notes, "; "));
-    if (!m_recipe.command.empty()) {
-        const std::string history = level.result.get_string_attribute("Exif:ImageHistory");
+    const std::string history = level.result.get_string_attribute("Exif:ImageHistory");
+    // One command line may hold several of our commands.
+    if (!m_recipe.command.empty() && !OIIO::Strutil::ends_with(history, m_recipe.command))
         level.result.attribute("Exif:ImageHistory", history + (history.empty() ? "" : "\n") + m_recipe.command);
-    }
     level.recorded = true;
 }
 

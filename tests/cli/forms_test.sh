@@ -57,6 +57,9 @@ check "the second subimage is the first" same second.exr a.exr
 $tool "$photo" --srisp-unprocess "$reference" -o n.exr && cp n.exr n1.exr && $tool "$photo" --srisp-unprocess "$reference" -o n.exr
 check "the same command twice gives the same bytes" cmp n.exr n1.exr
 check "the result records the user's command" sh -c "iinfo -v n.exr | grep -q 'srisptool.*--srisp-unprocess'"
+$tool "$photo" --srisp-unprocess "$reference" --srisp-process -o twice.exr
+check "a command line with two of ours is recorded once" sh -c \
+    "[ \$(iinfo -v twice.exr | grep ImageHistory | grep -o 'twice.exr' | wc -l) -eq 1 ]"
 check "no temporary name is in the result" sh -c "! grep -aq srisptool- n.exr"
 
 $tool "$photo" --srisp-unprocess "$reference" -o raw.png 2>png.txt
