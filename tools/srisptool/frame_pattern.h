@@ -9,8 +9,8 @@ namespace srisp {
 /// `p.%04d.json`. As in oiiotool a '#' is four digits.
 std::string frame_pattern_of_file(const std::string& path);
 
-/// The same for the name of an image on the command line, which may also use '@' (one digit) and begin the wildcard with a
-/// range: `s.1-9@@.tif` → `s.%02d.tif`.
+/// The same for the name of an image on the command line, which may also use '@' (one digit) and begin the wildcard
+/// with a range: `s.1-9@@.tif` → `s.%02d.tif`.
 std::string frame_pattern_of_image(const std::string& path);
 
 } // namespace srisp
