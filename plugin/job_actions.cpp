@@ -19,7 +19,7 @@ std::string with_frame(const std::string& pattern, const std::string& frame)
     if (frame.empty())
         return pattern;
     std::smatch match;
-    if (!std::regex_search(pattern, match, std::regex("#+|%(0?)([0-9]*)d")))
+    if (!std::regex_search(pattern, match, std::regex("#+|%(0?)([0-9]{0,2})d")))
         return pattern;
     const bool hashes = match.str()[0] == '#';
     const std::size_t width = hashes ? match.length() : match[2].length() ? std::stoul(match[2].str()) : 0;

@@ -23,7 +23,7 @@ struct Recipe {
     std::string parameters_where; ///< what that text is called in messages
     InputEncoding input = InputEncoding::automatic;
     std::uint64_t seed = 0;
-    bool lazy = false;     ///< parameters are selected when somebody asks for them, not on opening
+    bool lazy = false;     ///< opening reads headers only; metadata lacks parameters that must be selected
     bool hold = false;     ///< the first image's parameters hold for all later ones of this process
     bool progress = false; ///< on stderr, after two seconds
     bool notes = false;    ///< what was assumed or clipped, on stderr

@@ -97,45 +97,20 @@ bool SrispInput::seek_subimage(int subimage, int miplevel)
     if (subimage == m_subimage && miplevel == m_miplevel)
         return true;
     bool found = false;
-    const Status sought = take_spec(subimage, miplevel, !m_image->is_lazy(), found);
-    if (found) {
-        m_subimage = subimage;
-        m_miplevel = miplevel;
-    }
-    return sought ? found : fail(sought.error().message);
-}
-
-Status SrispInput::take_spec(int subimage, int miplevel, bool full, bool& found)
-{
-    return guarded([&]() -> Status {
+    const Status sought = guarded([&]() -> Status {
         auto spec = m_image->header(subimage, miplevel);
-        if (spec && *spec && full)
+        if (spec && *spec && !m_image->is_lazy())
             spec = m_image->full_spec(subimage, miplevel, threads());
         if (!spec)
             return spec.error();
-        if ((found = *spec != nullptr))
+        if ((found = *spec != nullptr)) {
             m_spec = **spec;
+            m_subimage = subimage;
+            m_miplevel = miplevel;
+        }
         return {};
     });
-}
-
-const OIIO::ImageSpec& SrispInput::spec() const
-{
-    const lock_guard lock(*this);
-    // OpenImageIO calls this const; what changes is how much is known, not what. A failure is no error yet: reading
-    // pixels fails with it.
-    bool found = false;
-    if (m_image && m_image->is_lazy())
-        static_cast<void>(const_cast<SrispInput*>(this)->take_spec(m_subimage, m_miplevel, true, found));
-    return m_spec;
-}
-
-OIIO::ImageSpec SrispInput::spec(int subimage, int miplevel)
-{
-    const lock_guard lock(*this);
-    if (!seek_subimage(subimage, miplevel))
-        return {};
-    return spec();
+    return sought ? found : fail(sought.error().message);
 }
 
 bool SrispInput::read_native_scanline(int subimage, int miplevel, int y, int z, void* data)

@@ -16,8 +16,8 @@ namespace srisp {
 /// The parameters belong to the metadata, and OpenImageIO 2.4's ImageCache (oiiotool, maketx, ImageBuf) takes that from
 /// what open and seek_subimage leave, never from spec(): so these select the parameters, which decodes photo and
 /// reference once per process; pixels are computed when they are read. Where parameters are given, held or known
-/// already, only headers are read; `lazy=1` in a query or hint asks for that always, and then the parameters come with
-/// spec() or the pixels.
+/// already, only headers are read; `lazy=1` in a query or hint asks for that always: for looking at sizes, since the
+/// metadata may lack parameters then.
 class SrispInput final : public OIIO::ImageInput {
 public:
     ~SrispInput() override { close(); }
@@ -29,8 +29,6 @@ public:
     bool open(const std::string& name, OIIO::ImageSpec& spec, const OIIO::ImageSpec& config) override;
     bool close() override;
 
-    const OIIO::ImageSpec& spec() const override;
-    OIIO::ImageSpec spec(int subimage, int miplevel) override;
     int current_subimage() const override;
     int current_miplevel() const override;
     bool seek_subimage(int subimage, int miplevel) override;
@@ -41,7 +39,6 @@ public:
 
 private:
     bool fail(const std::string& message) const;
-    Status take_spec(int subimage, int miplevel, bool full, bool& found);
 
     std::unique_ptr<ResultImage> m_image;
     int m_subimage = -1, m_miplevel = -1;
