@@ -82,7 +82,8 @@ std::string unpack(LibRaw& raw, RawStream& stream, const FileBytes& file)
     raw.imgdata.params.raw_processing_options |= LIBRAW_PROCESSING_SRAW_NO_RGB | LIBRAW_PROCESSING_SRAW_NO_INTERPOLATE;
     if (const int code = raw.open_datastream(&stream); code != LIBRAW_SUCCESS)
         return code == LIBRAW_FILE_UNSUPPORTED || code == LIBRAW_DATA_ERROR || code == LIBRAW_IO_ERROR
-                   ? "is not a RAW file that LibRaw " + std::string(LibRaw::version()) + " knows, or damaged or truncated"
+                   ? "is not a RAW file that LibRaw " + std::string(LibRaw::version()) +
+                         " knows, or damaged or truncated"
                    : std::string("LibRaw can't open it: ") + LibRaw::strerror(code);
     if (const std::string why = refusal(raw); !why.empty() && raw.imgdata.idata.dng_version == 0)
         return why;

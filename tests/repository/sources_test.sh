@@ -3,7 +3,7 @@
 # What holds for every source file: format, licence line, length; and that scripts parse.
 . "$(dirname "$0")/check.sh"
 cd "$source" || exit 1
-find lib plugin ocio tools tests configs .ci CMakeLists.txt -type f ! -path '*/models/*' ! -path '*/sample/*' >"$scratch/files"
+find $(ls -d lib plugin ocio tools tests configs .ci CMakeLists.txt 2>/dev/null) -type f ! -path '*/models/*' ! -path '*/sample/*' >"$scratch/files"
 grep -E '\.(cpp|h)$' "$scratch/files" >"$scratch/cpp"
 grep -E '\.(cpp|h|cu|sh|py|cmake|in|map)$|CMakeLists\.txt$|^\.ci/run$' "$scratch/files" >"$scratch/sources"
 
