@@ -10,7 +10,8 @@ packages="
     libxxhash-dev nlohmann-json3-dev
     openimageio-tools fonts-dejavu-core
 "
-test_packages="clang-format-14 dcraw libimage-exiftool-perl libraw-bin make man-db mount python3 python3-openimageio"
+test_packages="clang-format-14 dcraw libimage-exiftool-perl libraw-bin make man-db mount
+    python3 python3-numpy python3-openimageio"
 case "$#${1:-}" in
     0) packages="$packages $test_packages" ;;
     1build) ;;
