@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "half_float.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -17,6 +18,23 @@ float float_from_half(std::uint16_t bits)
     else
         magnitude = std::ldexp(static_cast<float>(1024 + mantissa), exponent - 25);
     return bits & 0x8000 ? -magnitude : magnitude;
+}
+
+std::uint16_t half_from_float(float value)
+{
+    const auto sign = static_cast<std::uint16_t>(std::signbit(value) ? 0x8000 : 0);
+    const float magnitude = std::abs(value);
+    if (std::isnan(value))
+        return sign | 0x7e00;
+    if (magnitude >= 65520.0f) // halfway between the largest half and the next power of two
+        return sign | 0x7c00;
+    int exponent = 0;
+    std::frexp(magnitude, &exponent); // magnitude = m · 2^exponent, m in [0.5, 1)
+    // Halves of this magnitude are multiples of 2^(exponent − 11); subnormal ones, of 2^−24.
+    const int step = std::max(exponent - 11, -24);
+    const auto multiple = static_cast<std::uint16_t>(std::nearbyint(std::ldexp(magnitude, -step)));
+    // The bits of adjacent halves are adjacent numbers, so a multiple rounded up to 2048 carries into the exponent.
+    return sign | static_cast<std::uint16_t>(multiple + ((step + 24) << 10));
 }
 
 float float_from_bfloat16(std::uint16_t bits)

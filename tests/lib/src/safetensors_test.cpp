@@ -55,6 +55,19 @@ TEST_CASE("every half is converted as Imath converts it")
     }
 }
 
+TEST_CASE("floats are rounded to halves as Imath rounds them")
+{
+    for (std::uint64_t i = 0; i < (1u << 20); ++i) {
+        // All exponents and signs, and of the mantissa the bits that matter to the rounding.
+        const std::uint32_t bits = static_cast<std::uint32_t>(i << 12) | (i % 3 == 0 ? 0 : i % 3 == 1 ? 1 : 0x800);
+        float value;
+        std::memcpy(&value, &bits, 4);
+        const std::uint16_t expected = Imath::half(value).bits(), actual = half_from_float(value);
+        if (std::isnan(value) ? !std::isnan(float_from_half(actual)) : actual != expected)
+            FAIL_CHECK("float ", value, " gives ", actual, ", not ", expected);
+    }
+}
+
 TEST_CASE("broken safetensors files are refused, each with its own message")
 {
     const std::string data(kTwoFloats, 8);

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "safetensors_writer.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "output_file.h"
+
+namespace srisp {
+
+namespace {
+
+/// Bytes of an element; 0 for a type that there is not.
+std::uint64_t element_size(const std::string& type)
+{
+    static const std::map<std::string, std::uint64_t> sizes = { { "F64", 8 }, { "I64", 8 }, { "F32", 4 }, { "I32", 4 },
+                                                                { "F16", 2 }, { "U16", 2 }, { "I16", 2 }, { "BF16", 2 },
+                                                                { "I8", 1 },  { "U8", 1 },  { "BOOL", 1 } };
+    const auto found = sizes.find(type);
+    return found == sizes.end() ? 0 : found->second;
+}
+
+std::uint64_t byte_count(const TensorView& tensor)
+{
+    std::uint64_t bytes = element_size(tensor.type);
+    for (const std::int64_t extent : tensor.shape)
+        bytes *= static_cast<std::uint64_t>(extent);
+    return bytes;
+}
+
+} // namespace
+
+Status write_safetensors(const std::string& path, std::vector<TensorView> tensors,
+                         const std::map<std::string, std::string>& metadata)
+{
+    nlohmann::json header = nlohmann::json::object();
+    if (!metadata.empty())
+        header["__metadata__"] = metadata;
+    std::stable_sort(tensors.begin(), tensors.end(), [](const TensorView& a, const TensorView& b) {
+        return element_size(a.type) > element_size(b.type);
+    });
+    std::uint64_t end = 0;
+    for (const TensorView& tensor : tensors) {
+        if (element_size(tensor.type) == 0)
+            return Error{ "'" + path + "': tensor '" + tensor.name + "' has unknown type '" + tensor.type + "'" };
+        if (header.contains(tensor.name))
+            return Error{ "'" + path + "': two tensors are named '" + tensor.name + "'" };
+        const std::uint64_t begin = end;
+        end += byte_count(tensor);
+        header[tensor.name] = { { "dtype", tensor.type },
+                                { "shape", tensor.shape },
+                                { "data_offsets", { begin, end } } };
+    }
+    // Texts that are no UTF-8 (a path in metadata) are replaced: nlohmann would throw.
+    std::string text = header.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    text.resize((text.size() + 7) / 8 * 8, ' ');
+
+    OutputFile file(path);
+    const std::uint64_t length = text.size();
+    file.write(&length, 8);
+    file.write(text);
+    for (const TensorView& tensor : tensors)
+        file.write(tensor.data, byte_count(tensor));
+    return file.finish();
+}
+
+} // namespace srisp
