@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <srisp/metrics.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace srisp {
+
+namespace {
+
+constexpr double kSmallestNorm = 1e-6;
+constexpr float kBright = 0.8f;
+constexpr float kGainLow = 0.05f, kGainHigh = 0.6f;
+
+double recorded(float value)
+{
+    return std::clamp(value, 0.0f, 1.0f);
+}
+
+/// Calls `visit(result pixel, truth pixel)` for every pixel.
+template<class Visit> void for_each_pixel(ImageView result, ImageView truth, Visit visit)
+{
+    for (int y = 0; y < truth.height; ++y)
+        for (int x = 0; x < truth.width; ++x)
+            visit(result.pixel(x, y), truth.pixel(x, y));
+}
+
+double ratio(double sum, std::int64_t count)
+{
+    return count > 0 ? sum / static_cast<double>(count) : std::numeric_limits<double>::quiet_NaN();
+}
+
+} // namespace
+
+double psnr(ImageView result, ImageView truth)
+{
+    double sum = 0;
+    for_each_pixel(result, truth, [&](const float* r, const float* t) {
+        for (int c = 0; c < 3; ++c) {
+            const double difference = recorded(r[c]) - t[c];
+            sum += difference * difference;
+        }
+    });
+    return -10 * std::log10(sum / (3.0 * truth.width * truth.height));
+}
+
+double AngularError::mean() const
+{
+    return ratio(sum_degrees, pixels);
+}
+
+AngularError& AngularError::operator+=(const AngularError& other)
+{
+    sum_degrees += other.sum_degrees;
+    pixels += other.pixels;
+    skipped += other.skipped;
+    return *this;
+}
+
+AngularError angular_error(ImageView result, ImageView truth)
+{
+    AngularError error;
+    for_each_pixel(result, truth, [&](const float* r, const float* t) {
+        double dot = 0, result_square = 0, truth_square = 0;
+        for (int c = 0; c < 3; ++c) {
+            const double value = recorded(r[c]);
+            dot += value * t[c];
+            result_square += value * value;
+            truth_square += double(t[c]) * t[c];
+        }
+        const double result_norm = std::sqrt(result_square), truth_norm = std::sqrt(truth_square);
+        if (result_norm < kSmallestNorm || truth_norm < kSmallestNorm) {
+            ++error.skipped;
+            return;
+        }
+        ++error.pixels;
+        error.sum_degrees += std::acos(std::clamp(dot / (result_norm * truth_norm), -1.0, 1.0)) * 180 / M_PI;
+    });
+    return error;
+}
+
+double HighlightErrors::mean() const
+{
+    return ratio(sum, values);
+}
+
+double HighlightErrors::mean_at_gain() const
+{
+    return ratio(sum_at_gain, values_at_gain);
+}
+
+HighlightErrors& HighlightErrors::operator+=(const HighlightErrors& other)
+{
+    sum += other.sum;
+    values += other.values;
+    sum_at_gain += other.sum_at_gain;
+    values_at_gain += other.values_at_gain;
+    return *this;
+}
+
+HighlightErrors highlight_errors(ImageView result, ImageView truth)
+{
+    HighlightErrors errors;
+    double bright_result = 0, bright_truth = 0, product = 0, square = 0;
+    for_each_pixel(result, truth, [&](const float* r, const float* t) {
+        for (int c = 0; c < 3; ++c) {
+            const double value = recorded(r[c]);
+            if (t[c] > kBright) {
+                bright_result += value;
+                bright_truth += t[c];
+                ++errors.values;
+            } else if (t[c] >= kGainLow && t[c] <= kGainHigh) {
+                product += value * t[c];
+                square += double(t[c]) * t[c];
+            }
+        }
+    });
+    errors.sum = bright_result - bright_truth;
+    if (product > 0) {
+        errors.sum_at_gain = bright_result * square / product - bright_truth;
+        errors.values_at_gain = errors.values;
+    }
+    return errors;
+}
+
+std::array<double, 3> lab_from_xyz(const std::array<double, 3>& xyz)
+{
+    constexpr double white[] = { 0.95047, 1, 1.08883 };
+    constexpr double linear_below = 216.0 / 24389, slope = 841.0 / 108; // (6/29)³ and (29/6)²/3 of the standard
+    double f[3];
+    for (int c = 0; c < 3; ++c) {
+        const double t = xyz[c] / white[c];
+        f[c] = t > linear_below ? std::cbrt(t) : slope * t + 4.0 / 29;
+    }
+    return { 116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2]) };
+}
+
+void LabHistogram::add(ImageView raw, const std::array<float, 9>& camera_to_xyz)
+{
+    constexpr double low = -150, high = 150;
+    for_each_pixel(raw, raw, [&](const float* v, const float*) {
+        std::array<double, 3> xyz;
+        for (int row = 0; row < 3; ++row)
+            xyz[row] = double(camera_to_xyz[row * 3]) * v[0] + double(camera_to_xyz[row * 3 + 1]) * v[1] +
+                       double(camera_to_xyz[row * 3 + 2]) * v[2];
+        const std::array<double, 3> lab = lab_from_xyz(xyz);
+        for (int c = 0; c < 3; ++c) {
+            const double bin = (lab[c] - low) / (high - low) * kBins;
+            // What is not a number falls into the first bin, too.
+            ++m_counts[c * kBins + (bin > 0 ? static_cast<int>(std::min(bin, kBins - 1.0)) : 0)];
+        }
+    });
+    m_pixels += std::int64_t(raw.width) * raw.height;
+}
+
+double LabHistogram::intersection(const LabHistogram& other) const
+{
+    if (m_pixels == 0 || other.m_pixels == 0)
+        return 0;
+    double sum = 0;
+    for (std::size_t i = 0; i < m_counts.size(); ++i)
+        sum += std::min(static_cast<double>(m_counts[i]) / m_pixels,
+                        static_cast<double>(other.m_counts[i]) / other.m_pixels);
+    return sum / 3;
+}
+
+} // namespace srisp
