@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <torch/torch.h>
+
+namespace srisp::train {
+
+/// A part of an image in fractions of its width and height: 0 ≤ left < right ≤ 1, and likewise down.
+struct Window {
+    double left = 0, top = 0, right = 1, bottom = 1;
+};
+
+/// Squashes images [N, C, H, W] to `height` × `width`: each output pixel is the mean of the input area that it covers,
+/// fractions of pixels counted; enlarging too. Two matrix products; same device and type.
+torch::Tensor area_resize(const torch::Tensor& images, int height, int width);
+
+/// The same of a part of each image; one window per image.
+torch::Tensor area_crop(const torch::Tensor& images, const std::vector<Window>& windows, int height, int width);
+
+} // namespace srisp::train
