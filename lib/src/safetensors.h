@@ -8,6 +8,8 @@
 
 #include <srisp/expected.h>
 
+#include "safetensors_header.h"
+
 namespace srisp {
 
 /// A tensor as float32, row-major.
@@ -22,13 +24,8 @@ struct SafeTensors {
     std::map<std::string, std::string> metadata;
 };
 
-/// "[3, 24]", for messages.
-std::string shape_text(const std::vector<std::int64_t>& shape);
-
 /// Parses a safetensors file that is in memory: F32, F16 and BF16 tensors. `where` starts every message ("model
-/// 'm.safetensors'"). Errors: header length beyond the file, not JSON, duplicate names, offsets outside the file, out
-/// of order, overlapping or with gaps, sizes that do not match shape and type, other types.
-/// (https://github.com/huggingface/safetensors, format)
+/// 'm.safetensors'"). Errors: those of parse_safetensors_header.
 Expected<SafeTensors> parse_safetensors(const std::string& bytes, const std::string& where);
 
 /// Reads a whole file of at most `max_bytes`; `where` as above.

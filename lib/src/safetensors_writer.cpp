@@ -6,24 +6,15 @@
 #include <nlohmann/json.hpp>
 
 #include "output_file.h"
+#include "safetensors_header.h"
 
 namespace srisp {
 
 namespace {
 
-/// Bytes of an element; 0 for a type that there is not.
-std::uint64_t element_size(const std::string& type)
-{
-    static const std::map<std::string, std::uint64_t> sizes = { { "F64", 8 }, { "I64", 8 }, { "F32", 4 }, { "I32", 4 },
-                                                                { "F16", 2 }, { "U16", 2 }, { "I16", 2 }, { "BF16", 2 },
-                                                                { "I8", 1 },  { "U8", 1 },  { "BOOL", 1 } };
-    const auto found = sizes.find(type);
-    return found == sizes.end() ? 0 : found->second;
-}
-
 std::uint64_t byte_count(const TensorView& tensor)
 {
-    std::uint64_t bytes = element_size(tensor.type);
+    std::uint64_t bytes = safetensors_element_size(tensor.type);
     for (const std::int64_t extent : tensor.shape)
         bytes *= static_cast<std::uint64_t>(extent);
     return bytes;
@@ -38,11 +29,11 @@ Status write_safetensors(const std::string& path, std::vector<TensorView> tensor
     if (!metadata.empty())
         header["__metadata__"] = metadata;
     std::stable_sort(tensors.begin(), tensors.end(), [](const TensorView& a, const TensorView& b) {
-        return element_size(a.type) > element_size(b.type);
+        return safetensors_element_size(a.type) > safetensors_element_size(b.type);
     });
     std::uint64_t end = 0;
     for (const TensorView& tensor : tensors) {
-        if (element_size(tensor.type) == 0)
+        if (safetensors_element_size(tensor.type) == 0)
             return Error{ "'" + path + "': tensor '" + tensor.name + "' has unknown type '" + tensor.type + "'" };
         if (header.contains(tensor.name))
             return Error{ "'" + path + "': two tensors are named '" + tensor.name + "'" };

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <srisp/expected.h>
+
+namespace srisp {
+
+/// Where a tensor lies in a safetensors file.
+struct TensorEntry {
+    std::string name, type;
+    std::vector<std::int64_t> shape;
+    std::uint64_t begin, end; ///< bytes after the header
+};
+
+/// The header of a safetensors file, checked against the file's size.
+struct SafeTensorsHeader {
+    std::vector<TensorEntry> entries; ///< in the order in which they lie in the file, without gaps
+    std::map<std::string, std::string> metadata;
+    std::uint64_t data_begin = 0; ///< bytes before the first tensor
+};
+
+/// Bytes of an element of type "F64", "F32", "U16", …; 0 for a type that there is not.
+std::uint64_t safetensors_element_size(const std::string& type);
+
+/// "[3, 24]", for messages.
+std::string shape_text(const std::vector<std::int64_t>& shape);
+
+/// Parses the header of a file of `size` bytes at `bytes` (in memory or mapped); no tensor is touched. `types`: those
+/// that may occur. `where` starts every message ("model 'm.safetensors'"). Errors: header length beyond the file, not
+/// JSON, duplicate names, offsets outside the file, overlapping or with gaps, sizes that do not match shape and type,
+/// other types. (https://github.com/huggingface/safetensors, format)
+Expected<SafeTensorsHeader> parse_safetensors_header(const char* bytes, std::uint64_t size,
+                                                     const std::vector<std::string>& types, const std::string& where);
+
+} // namespace srisp
