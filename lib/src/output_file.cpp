@@ -37,6 +37,15 @@ void OutputFile::write(const void* data, std::size_t bytes)
         fail("cannot be written");
 }
 
+void OutputFile::write_start(const void* data, std::size_t bytes)
+{
+    if (good() && std::fseek(m_file, 0, SEEK_SET) != 0)
+        fail("cannot be written");
+    write(data, bytes);
+    if (good() && std::fseek(m_file, 0, SEEK_END) != 0)
+        fail("cannot be written");
+}
+
 Status OutputFile::finish()
 {
     if (!m_file)

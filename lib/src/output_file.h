@@ -21,6 +21,10 @@ public:
     /// Appends; after a failure it does nothing, and `finish` says why.
     void write(const void* data, std::size_t bytes);
     void write(const std::string& text) { write(text.data(), text.size()); }
+    /// Writes over the first bytes, which were written before.
+    void write_start(const void* data, std::size_t bytes);
+    /// Whether all went well so far.
+    bool good() const { return m_error.empty(); }
 
     /// Call once, at the end.
     Status finish();
