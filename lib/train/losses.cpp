@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "losses.h"
+
+namespace srisp::train {
+
+namespace {
+
+constexpr double kHighlight = 0.8; // of method.md, section 5
+constexpr double kWhite = 0.98;    // every channel of the photo at or above it
+constexpr double kDarkest = 1e-3;  // of a mean, as in the statistics
+
+torch::Tensor mean_per_image(const torch::Tensor& images)
+{
+    return images.flatten(1).mean(1);
+}
+
+/// Mean over the elements where `mask` is 1; 0 for an image that has none.
+torch::Tensor masked_mean(const torch::Tensor& images, const torch::Tensor& mask)
+{
+    return (images * mask).flatten(1).sum(1) / mask.expand_as(images).flatten(1).sum(1).clamp_min(1);
+}
+
+torch::Tensor log_means(const torch::Tensor& images)
+{
+    return images.mean({ 2, 3 }).clamp_min(kDarkest).log();
+}
+
+} // namespace
+
+bool needs_round_trip(const LossSettings& settings)
+{
+    return settings.round_trip > 0 || settings.white > 0;
+}
+
+std::vector<LossTerm> loss_terms(const LossSettings& settings, const Compared& images)
+{
+    std::vector<LossTerm> terms;
+    const auto add = [&terms](const char* name, double weight, const auto& values) {
+        if (weight > 0)
+            terms.push_back({ name, weight, values() });
+    };
+    const auto encode = [&settings](const torch::Tensor& raw) {
+        return raw.clamp_min(settings.floor).pow(1 / settings.gamma);
+    };
+    const auto error = [&images] { return (images.predicted - images.truth).abs(); };
+    add("reverse", settings.reverse,
+        [&] { return mean_per_image((encode(images.truth) - encode(images.predicted)).abs()); });
+    if (images.processed.defined())
+        add("forward", settings.forward, [&] { return mean_per_image((images.source - images.processed).abs()); });
+    add("linear", settings.linear, [&] { return mean_per_image(error()); });
+    add("log_mean", settings.log_mean,
+        [&] { return (log_means(images.truth) - log_means(images.predicted)).abs().mean(1); });
+    add("highlights", settings.highlights,
+        [&] { return masked_mean(error(), (images.truth > kHighlight).to(torch::kFloat)); });
+    if (images.round_trip.defined()) {
+        const auto change = [&images] { return (images.source - images.round_trip).abs(); };
+        add("round_trip", settings.round_trip, [&] { return mean_per_image(change()); });
+        add("white", settings.white,
+            [&] { return masked_mean(change(), (images.source.amin(1, true) >= kWhite).to(torch::kFloat)); });
+    }
+    return terms;
+}
+
+} // namespace srisp::train

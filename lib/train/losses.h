@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <torch/torch.h>
+
+namespace srisp::train {
+
+/// Weights of the loss's terms. The first two are the paper's [P 3.4]; the others are ours.
+struct LossSettings {
+    double reverse = 1;
+    double forward = 1;
+    double linear = 0;
+    double log_mean = 0;
+    double highlights = 0;
+    double round_trip = 0;
+    double white = 0;
+    double gamma = 2.2;
+    double floor = 1e-5;
+
+    template<class Visitor> void describe(Visitor& v)
+    {
+        v.number("reverse", reverse, 0, 1e3, "weight of |y^(1/gamma) - y'^(1/gamma)|, truth y, prediction y'");
+        v.number("forward", forward, 0, 1e3, "weight of |x - f(y)|, photo x, forward pass f of the truth");
+        v.number("linear", linear, 0, 1e3, "weight of |y - y'|");
+        v.number("log_mean", log_mean, 0, 1e3, "weight of |ln mean y - ln mean y'| per channel: brightness");
+        v.number("highlights", highlights, 0, 1e3, "weight of |y - y'| where the truth exceeds 0.8");
+        v.number("round_trip", round_trip, 0, 1e3, "weight of |x - f(y')|");
+        v.number("white", white, 0, 1e3, "weight of |x - f(y')| where the photo is clipped white");
+        v.number("gamma", gamma, 1, 4, "gamma under which RAW is compared in the term 'reverse'");
+        v.number("floor", floor, 1e-8, 1e-2,
+                 "RAW values are raised to this before the gamma, whose slope at 0 is infinite");
+    }
+};
+
+/// What a pass gave. Images [N, 3, H, W]; `processed` = f(truth) and `round_trip` = f(predicted) may be undefined where
+/// the method has no forward pass or no term needs them.
+struct Compared {
+    torch::Tensor source, truth, predicted, processed, round_trip;
+};
+
+/// One term that is in use: its value [N] for each image, without its weight.
+struct LossTerm {
+    std::string name;
+    double weight;
+    torch::Tensor values;
+};
+
+/// Whether a term compares `round_trip`.
+bool needs_round_trip(const LossSettings& settings);
+
+/// The terms with a weight above 0, in the order of the settings.
+std::vector<LossTerm> loss_terms(const LossSettings& settings, const Compared& images);
+
+} // namespace srisp::train

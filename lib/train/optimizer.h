@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <torch/torch.h>
+
+#include "parameter_vector.h"
+
+namespace srisp::train {
+
+struct OptimizerSettings {
+    double rate = 1e-3;
+    double dictionary_rate = 6e-3;
+    std::string schedule = "one_cycle";
+    double warm_up = 0.1;
+    double final_factor = 1e-3;
+    double clip_norm = 1;
+    double beta1 = 0.9, beta2 = 0.999;
+    double weight_decay = 0;
+
+    template<class Visitor> void describe(Visitor& v)
+    {
+        v.number("rate", rate, 0, 1, "learning rate of Adam at its highest");
+        v.number("dictionary_rate", dictionary_rate, 0, 1, "the same for the dictionaries' atoms");
+        v.choice("schedule", schedule, { "one_cycle", "cosine", "step", "constant" },
+                 "course of the rate; step: a tenth after 250/800 and 500/800 of the steps, as in the paper");
+        v.number("warm_up", warm_up, 0, 0.9, "one_cycle: share of the steps in which the rate rises");
+        v.number("final_factor", final_factor, 0, 1, "one_cycle, cosine: the last rate, as a share of the highest");
+        v.number("clip_norm", clip_norm, 1e-6, 1e6, "largest norm of the gradient; what is longer is shortened");
+        v.number("beta1", beta1, 0, 0.9999, "Adam: memory of the gradient");
+        v.number("beta2", beta2, 0, 0.99999, "Adam: memory of its square");
+        v.number("weight_decay", weight_decay, 0, 1, "decoupled weight decay; dictionaries and biases have none");
+    }
+};
+
+/// Factor of the learning rate at `step` of `steps`: 1 at its highest.
+double rate_factor(const OptimizerSettings& settings, std::int64_t step, std::int64_t steps);
+
+/// Adam (Kingma and Ba 2015) with decoupled weight decay, on all parameters at once, behind a limit on the gradient's
+/// norm.
+class Adam {
+public:
+    /// `dictionaries` [P]: 1 for elements that learn at the dictionaries' rate; `decayed` [P]: 1 for those that decay.
+    Adam(const OptimizerSettings& settings, const ParameterVector& parameters, const torch::Tensor& dictionaries,
+         const torch::Tensor& decayed);
+
+    /// The norm of the gradient, before it is limited.
+    double gradient_norm() const;
+
+    /// Update number `step` (from 0) with a gradient of norm `norm`; `factor` from rate_factor.
+    void update(std::int64_t step, double factor, double norm);
+
+    /// The moments [P], for checkpoints.
+    torch::Tensor first_moment, second_moment;
+
+private:
+    OptimizerSettings m_settings;
+    torch::Tensor m_values, m_gradients, m_rates, m_decays;
+};
+
+} // namespace srisp::train

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+#include <srisp/expected.h>
+
+#include "settings.h"
+
+namespace srisp::train {
+
+/// Common to the visitors here: they know settings by dotted keys ("loss.clip_norm").
+class KeyedVisitor : public SettingsVisitor {
+protected:
+    std::string key(const char* name) const { return m_prefix + name; }
+    void enter(const char* group_name) override;
+    void leave() override;
+
+private:
+    std::string m_prefix;
+    std::vector<std::size_t> m_prefix_lengths;
+};
+
+/// Takes settings out of a JSON object (a recipe); what it does not name stays as it is. Each value's type, range and
+/// choice are checked; the first error stays.
+class SettingsReader : public KeyedVisitor {
+public:
+    /// `where` starts every message ("recipe 'paper.json'").
+    SettingsReader(const nlohmann::json& object, std::string where);
+
+    /// Call it last: every key that no setting took is an error that lists the near ones.
+    Status finish();
+
+    void number(const char* name, double& value, double low, double high, const char* text) override;
+    void integer(const char* name, int& value, int low, int high, const char* text) override;
+    void flag(const char* name, bool& value, const char* text) override;
+    void choice(const char* name, std::string& value, const std::vector<std::string>& allowed,
+                const char* text) override;
+    void path(const char* name, std::string& value, const char* text) override;
+    void range(const char* name, double& low, double& high, double low_limit, double high_limit,
+               const char* text) override;
+
+private:
+    const nlohmann::json* find(const char* name);
+    void fail(const char* name, const std::string& wanted, const nlohmann::json& value);
+
+    nlohmann::json m_values; ///< by dotted key
+    std::string m_where, m_error;
+    std::vector<std::string> m_known;
+};
+
+/// Writes settings as a JSON object that SettingsReader takes back to the same values.
+class SettingsWriter : public SettingsVisitor {
+public:
+    SettingsWriter();
+    nlohmann::ordered_json object() const { return m_groups.front().second; }
+
+    void number(const char* name, double& value, double low, double high, const char* text) override;
+    void integer(const char* name, int& value, int low, int high, const char* text) override;
+    void flag(const char* name, bool& value, const char* text) override;
+    void choice(const char* name, std::string& value, const std::vector<std::string>& allowed,
+                const char* text) override;
+    void path(const char* name, std::string& value, const char* text) override;
+    void range(const char* name, double& low, double& high, double low_limit, double high_limit,
+               const char* text) override;
+
+private:
+    void enter(const char* group_name) override;
+    void leave() override;
+
+    std::vector<std::pair<std::string, nlohmann::ordered_json>> m_groups;
+};
+
+/// One setting, for lists.
+struct SettingRow {
+    std::string key, value, range, text;
+};
+
+/// Lists settings with their present values.
+class SettingsLister : public KeyedVisitor {
+public:
+    const std::vector<SettingRow>& rows() const { return m_rows; }
+
+    void number(const char* name, double& value, double low, double high, const char* text) override;
+    void integer(const char* name, int& value, int low, int high, const char* text) override;
+    void flag(const char* name, bool& value, const char* text) override;
+    void choice(const char* name, std::string& value, const std::vector<std::string>& allowed,
+                const char* text) override;
+    void path(const char* name, std::string& value, const char* text) override;
+    void range(const char* name, double& low, double& high, double low_limit, double high_limit,
+               const char* text) override;
+
+private:
+    std::vector<SettingRow> m_rows;
+};
+
+/// Turns "loss.clip_norm=2" into {"loss.clip_norm": 2}: what follows "=" is JSON, two numbers with a comma between
+/// them, or else a text.
+Expected<nlohmann::json> parse_assignment(const std::string& assignment);
+
+} // namespace srisp::train
