@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <ctime>
 #include <filesystem>
-#include <vector>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
+#include "image_rows.h"
 #include "pixel_source.h"
 #include "query.h"
 #include "text_file.h"
@@ -50,11 +49,7 @@ public:
 
     Status read_rows(int subimage, int miplevel, int y0, int y1, float* rows) override
     {
-        const OIIO::ImageSpec spec = m_input->spec_dimensions(subimage, miplevel);
-        const bool read = spec.tile_width ? read_tile_rows(spec, subimage, miplevel, y0, y1, rows)
-                                          : m_input->read_scanlines(subimage, miplevel, spec.y + y0, spec.y + y1,
-                                                                    spec.z, 0, spec.nchannels, OIIO::TypeFloat, rows);
-        if (read)
+        if (read_image_rows(*m_input, subimage, miplevel, y0, y1, rows))
             return {};
         const std::string reason = m_input->geterror();
         return Error{ "source '" + m_path + "': " + (reason.empty() ? "cannot be read" : reason) };
@@ -64,20 +59,6 @@ public:
     const std::string& key() const override { return m_key; }
 
 private:
-    /// Whole rows of tiles are read; those asked for are copied.
-    bool read_tile_rows(const OIIO::ImageSpec& spec, int subimage, int miplevel, int y0, int y1, float* rows)
-    {
-        const int tile = spec.tile_height;
-        const int first = y0 / tile * tile, last = std::min((y1 + tile - 1) / tile * tile, spec.height);
-        const std::size_t row = std::size_t(spec.width) * spec.nchannels;
-        std::vector<float> tiles(row * (last - first));
-        if (!m_input->read_tiles(subimage, miplevel, spec.x, spec.x + spec.width, spec.y + first, spec.y + last, spec.z,
-                                 spec.z + 1, 0, spec.nchannels, OIIO::TypeFloat, tiles.data()))
-            return false;
-        std::copy_n(tiles.data() + row * (y0 - first), row * (y1 - y0), rows);
-        return true;
-    }
-
     std::unique_ptr<OIIO::ImageInput> m_input;
     std::string m_path, m_key;
 };

@@ -5,7 +5,7 @@
 
 namespace srisp {
 
-/// How `count` inputs of width 1 lie on `kThumbnailSize` equal cells along one axis: input i touches cells first[i] …
+/// How `count` inputs of width 1 lie on `cells` equal cells along one axis: input i touches cells first[i] …
 /// first[i + 1 … ] with the lengths that they share. One table serves rows and columns.
 struct AxisCoverage {
     struct Share {
