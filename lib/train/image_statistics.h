@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <torch/torch.h>
+
+namespace srisp::train {
+
+/// The twelve brightness numbers of linear images [N, 3, H, W], as [N, 12] (srisp::statistics, the same code as the
+/// library's). No gradient flows through them: the images are data.
+torch::Tensor image_statistics(const torch::Tensor& linear);
+
+} // namespace srisp::train

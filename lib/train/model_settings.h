@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "settings.h"
+
+namespace srisp::train {
+
+/// Which method, and its ablations. The defaults are this project's; the paper's own model is encoder_input plain,
+/// statistics and anchor off [method 2].
+struct ModelSettings {
+    std::string method = "srisp";
+    std::string kernel_size = "3";
+    int dictionary_size = 5;
+    std::string encoder_input = "perceptual";
+    bool statistics = true, anchor = true;
+    std::string selection = "dynamic", gain = "separate", tone = "dynamic", gamma = "dynamic";
+    int unet_channels = 16;
+
+    /// Where the colour dictionary starts (camera RGB → linear sRGB, row-major): matrices of different cameras. Empty:
+    /// the four DND cameras and a mild one. Not read from recipes; a trainer may take them from its pack.
+    std::vector<std::array<float, 9>> initial_color;
+
+    template<class Visitor> void describe(Visitor& v)
+    {
+        v.choice("method", method, { "srisp", "mbispld", "unet", "upi", "gain_match" },
+                 "srisp, or a baseline; the settings below are srisp's, mbispld fixes most of them");
+        v.choice("kernel_size", kernel_size, { "3", "1" }, "of the tone map; 1: pointwise");
+        v.integer("dictionary_size", dictionary_size, 1, 64, "atoms per dictionary, K [P 3.1]");
+        v.choice("encoder_input", encoder_input, { "perceptual", "plain" }, "plain: as in the paper");
+        v.flag("statistics", statistics, "12 brightness statistics join the features");
+        v.flag("anchor", anchor, "gains start from a regression of brightness; needs statistics");
+        v.choice("selection", selection, { "dynamic", "intermediate", "static" },
+                 "intermediate: without source and reference features; static: one parameter set for all images");
+        v.choice("gain", gain, { "separate", "merged" }, "merged: gain and white balance are one dictionary");
+        v.choice("tone", tone, { "dynamic", "static" }, "static: one tone map for all images");
+        v.choice("gamma", gamma, { "dynamic", "static" }, "static: one gamma for all images");
+        v.integer("unet_channels", unet_channels, 4, 128, "of the first level of the U-Net");
+    }
+
+    /// The settings as `mbispld` fixes them: gain and white balance in one dictionary, one gamma, one 1×1 tone map,
+    /// selection from the intermediate images alone [P 4.2]; others unchanged.
+    ModelSettings resolved() const
+    {
+        ModelSettings s = *this;
+        if (method != "mbispld")
+            return s;
+        s.kernel_size = "1";
+        s.encoder_input = "plain";
+        s.statistics = s.anchor = false;
+        s.selection = "intermediate";
+        s.gain = "merged";
+        s.tone = s.gamma = "static";
+        return s;
+    }
+};
+
+} // namespace srisp::train

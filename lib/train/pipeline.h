@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "unprocessor.h"
+
+namespace srisp::train {
+
+/// The reverse pass with a given choice: tone map (where it has one), gamma, colour, white balance, gain, clamp.
+torch::Tensor reverse_pipeline(const torch::Tensor& source, const Choice& choice);
+
+/// The forward pass with the same choice.
+torch::Tensor forward_pipeline(const torch::Tensor& raw, const Choice& choice);
+
+} // namespace srisp::train
