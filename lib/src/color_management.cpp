@@ -149,16 +149,6 @@ bool read_colorants(cmsHPROFILE profile, Matrix3& matrix)
     return std::fabs(determinant(matrix)) > 1e-6;
 }
 
-Matrix3 product(const Matrix3& a, const Matrix3& b)
-{
-    Matrix3 result{};
-    for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 3; ++column)
-            for (int k = 0; k < 3; ++k)
-                result[row * 3 + column] += a[row * 3 + k] * b[k * 3 + column];
-    return result;
-}
-
 /// Null where the profile is not plain curves and matrix, or has tables that take precedence over them (ICC.1 8.10).
 std::shared_ptr<const ColorTransform> matrix_transform(cmsHPROFILE profile, cmsHPROFILE srgb)
 {

@@ -10,6 +10,16 @@ static double cofactor(const Matrix3& m, int row, int column)
     return double(m[r1 * 3 + c1]) * m[r2 * 3 + c2] - double(m[r1 * 3 + c2]) * m[r2 * 3 + c1];
 }
 
+Matrix3 product(const Matrix3& a, const Matrix3& b)
+{
+    Matrix3 result{};
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            for (int k = 0; k < 3; ++k)
+                result[row * 3 + column] += a[row * 3 + k] * b[k * 3 + column];
+    return result;
+}
+
 double determinant(const Matrix3& m)
 {
     return m[0] * cofactor(m, 0, 0) + m[1] * cofactor(m, 0, 1) + m[2] * cofactor(m, 0, 2);

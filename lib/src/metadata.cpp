@@ -7,6 +7,7 @@
 
 #include <OpenImageIO/strutil.h>
 
+#include "daylight_matrix.h"
 #include "matrix3.h"
 #include "record_line.h"
 
@@ -65,16 +66,6 @@ void set(OIIO::ImageSpec& spec, const std::string& name, const float* values, in
     spec.attribute(kPrefix + name, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, count), values);
 }
 
-/// The matrix for daylight, else the first.
-const CameraFacts::ColorMatrix* main_matrix(const CameraFacts& facts)
-{
-    constexpr int kD65 = 21; // EXIF LightSource
-    for (const CameraFacts::ColorMatrix& matrix : facts.color_matrices)
-        if (matrix.illuminant == kD65)
-            return &matrix;
-    return facts.color_matrices.empty() ? nullptr : &facts.color_matrices.front();
-}
-
 /// CIE xy of the camera RGB that is neutral in the result (OpenEXR's meaning of the attribute).
 void set_adopted_neutral(OIIO::ImageSpec& spec, const Matrix3& xyz_to_camera, const float neutral[3])
 {
@@ -107,7 +98,7 @@ void record_facts(OIIO::ImageSpec& spec, const CameraFacts& facts, const float n
         const std::vector<float> noise(facts.noise_profile.begin(), facts.noise_profile.end());
         set(spec, "reference_noise_profile", noise.data(), static_cast<int>(noise.size()));
     }
-    if (const CameraFacts::ColorMatrix* matrix = main_matrix(facts)) {
+    if (const CameraFacts::ColorMatrix* matrix = daylight_matrix(facts)) {
         spec.attribute(std::string(kPrefix) + "xyz_to_camera", OIIO::TypeMatrix33, matrix->xyz_to_camera.data());
         if (matrix->illuminant)
             spec.attribute(std::string(kPrefix) + "xyz_to_camera_illuminant", matrix->illuminant);
