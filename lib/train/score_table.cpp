@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "scores.h"
+
+namespace srisp::train {
+
+namespace {
+
+/// printf into a string.
+__attribute__((format(printf, 1, 2))) std::string text(const char* format, ...)
+{
+    char buffer[512];
+    va_list arguments;
+    va_start(arguments, format);
+    std::vsnprintf(buffer, sizeof buffer, format, arguments);
+    va_end(arguments);
+    return buffer;
+}
+
+constexpr char kHeader[] =
+    "                           dB  over g.m.  covered  angle  ratio   ln mean error   highlights  at gain  skipped\n";
+
+/// A line of the table; `relation` is what stands in the columns "over g.m." and "covered", and `ratio` in its own.
+std::string line(const std::string& name, const Measure& m, const std::string& relation, const std::string& ratio)
+{
+    return text("%-22.22s %6.2f  %8.17s %6.2f  %5.5s  %+6.3f +- %.3f      %+.3f   %+.3f  %7lld\n", name.c_str(),
+                m.psnr(), relation.c_str(), m.angle.mean(), ratio.c_str(), m.log_error_mean(), m.log_error_deviation(),
+                m.highlights.mean(), m.highlights.mean_at_gain(), static_cast<long long>(m.angle.skipped));
+}
+
+std::string model_lines(const std::string& name, const ScoreGroup& group)
+{
+    const std::string nothing(17, ' ');
+    return line(name, group.model, text("%+8.2f  %6.0f %%", group.psnr_gain(), 100 * group.covered()),
+                text("%.2f", group.angle_ratio())) +
+           line("  + true means", group.model_oracle, nothing, "") +
+           line("  + true gain", group.model_oracle_gain, nothing, "");
+}
+
+std::string group_title(const ScoreGroup& group)
+{
+    const std::string where = group.camera.empty() ? text("%d cameras", group.cameras) : group.camera;
+    return text("%s, %s rendering: %d crops of %s\n", group.set == "real" ? "real RAW" : "simulated RAW",
+                group.rendering.c_str(), group.model.crops, where.c_str());
+}
+
+std::string group_table(const NamedScores& scores, std::size_t index)
+{
+    const ScoreGroup& first = scores.front().second.groups[index];
+    const std::string nothing(17, ' ');
+    std::string result = group_title(first) + kHeader + line("gain match", first.gain_match, nothing, "") +
+                         line("  + true means", first.gain_match_oracle, nothing, "");
+    for (const auto& [name, of_model] : scores)
+        result += model_lines(name, of_model.groups[index]);
+    return result + "\n";
+}
+
+/// One short line per camera and method.
+std::string camera_lines(const NamedScores& scores)
+{
+    std::string result =
+        "by camera                                                dB  over g.m.  covered  angle  ratio\n";
+    for (std::size_t i = 0; i < scores.front().second.groups.size(); ++i)
+        for (const auto& [name, of_model] : scores) {
+            const ScoreGroup& group = of_model.groups[i];
+            if (!group.camera.empty())
+                result += text("%-28.28s %-7.7s %-14.14s %7.2f  %+8.2f  %5.0f %%  %5.2f  %5.2f\n", group.camera.c_str(),
+                               group.rendering.c_str(), name.c_str(), group.model.psnr(), group.psnr_gain(),
+                               100 * group.covered(), group.model.angle.mean(), group.angle_ratio());
+        }
+    return result + "\n";
+}
+
+std::string unpaired_line(const std::string& name, const UnpairedScores::Method& method)
+{
+    const auto& mean = method.rank_mean;
+    const auto& lowest = method.rank_lowest;
+    return text("%-22.22s        %.3f       %5.2f %5.2f %5.2f        %5.2f %5.2f %5.2f\n", name.c_str(),
+                method.intersection, mean[0], mean[1], mean[2], lowest[0], lowest[1], lowest[2]);
+}
+
+std::string unpaired_table(const NamedScores& scores)
+{
+    const UnpairedScores& first = *scores.front().second.unpaired;
+    std::string result =
+        text("%d photos, each with the same %d references, unpaired\n", first.photos, first.references);
+    result += "                        histogram    rank correlation per channel, of a photo's brightness\n"
+              "                     intersection    mean over photos         lowest\n";
+    result += unpaired_line("gain match", first.gain_match);
+    for (const auto& [name, of_model] : scores)
+        result += unpaired_line(name, of_model.unpaired->model);
+    return result + "\n";
+}
+
+} // namespace
+
+std::string score_table(const NamedScores& scores, bool by_camera)
+{
+    if (scores.empty())
+        return "";
+    std::string result;
+    const Scores& first = scores.front().second;
+    for (std::size_t i = 0; i < first.groups.size(); ++i)
+        if (first.groups[i].camera.empty())
+            result += group_table(scores, i);
+    if (by_camera)
+        result += camera_lines(scores);
+    if (first.unpaired)
+        result += unpaired_table(scores);
+    return result;
+}
+
+} // namespace srisp::train
