@@ -24,4 +24,9 @@ torch::Tensor image_statistics(const torch::Tensor& linear)
     return result.to(linear.device());
 }
 
+torch::Tensor source_statistics(const torch::Tensor& display)
+{
+    return image_statistics(display.detach().clamp_min(1e-8).pow(2.2));
+}
+
 } // namespace srisp::train

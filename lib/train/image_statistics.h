@@ -9,4 +9,7 @@ namespace srisp::train {
 /// library's). No gradient flows through them: the images are data.
 torch::Tensor image_statistics(const torch::Tensor& linear);
 
+/// Those of display-encoded images, made linear by max(v, 1e-8)^2.2.
+torch::Tensor source_statistics(const torch::Tensor& display);
+
 } // namespace srisp::train

@@ -27,6 +27,12 @@ torch::Tensor mixed(const torch::Tensor& weights, const torch::Tensor& atoms)
     return torch::matmul(weights, atoms.reshape({ atoms.size(0), -1 })).view(shape);
 }
 
+/// Gain match: the RAW's channel means are the reference's, ln mean = 2 s − 2 [method 2].
+torch::Tensor gain_match_anchor()
+{
+    return torch::cat({ torch::zeros({ 3, kStatistics }), 2 * torch::eye(3, kStatistics) }, 1);
+}
+
 } // namespace
 
 Network::Network(const ModelSettings& settings, std::uint64_t seed)
@@ -60,19 +66,15 @@ Network::Network(const ModelSettings& settings, std::uint64_t seed)
     if (m_settings.gain == "separate")
         m_gain = selector("gain", "dynamic", 3 * atoms, 1);
     m_dictionaries = register_module("dictionary", std::make_shared<Dictionaries>(m_settings, initial));
-    start_anchor();
+    if (m_anchor)
+        set_anchor(gain_match_anchor(), torch::full({ 3 }, -2));
 }
 
-/// Gain match: the RAW's log means are the reference's, ln mean = 2 s − 2 [method 2].
-void Network::start_anchor()
+void Network::set_anchor(const torch::Tensor& weight, const torch::Tensor& bias)
 {
-    if (!m_anchor)
-        return;
     const torch::NoGradGuard no_gradient;
-    m_anchor->weight.zero_();
-    m_anchor->bias.fill_(-2);
-    for (int c = 0; c < 3; ++c)
-        m_anchor->weight[c][kStatistics + c] = 2;
+    m_anchor->weight.copy_(weight);
+    m_anchor->bias.copy_(bias);
 }
 
 /// Chooses block after block on the running image.
@@ -116,7 +118,7 @@ private:
     void encode_images()
     {
         if (m_network.m_source_statistics || m_network.m_anchor) {
-            m_source_statistics = image_statistics(m_source.clamp_min(1e-8).pow(2.2));
+            m_source_statistics = source_statistics(m_source);
             m_reference_statistics = image_statistics(m_reference);
             note("source_statistics", m_source_statistics);
             note("reference_statistics", m_reference_statistics);

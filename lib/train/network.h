@@ -32,13 +32,12 @@ public:
                                  Trace* trace);
 
     const ModelSettings& settings() const { return m_settings; }
-    /// [3, 24] and [3]; undefined where there is no anchor. For the closed-form fit.
-    torch::Tensor anchor_weight() const { return m_anchor ? m_anchor->weight : torch::Tensor(); }
-    torch::Tensor anchor_bias() const { return m_anchor ? m_anchor->bias : torch::Tensor(); }
+    bool has_anchor() const { return m_anchor != nullptr; }
+    /// A [3, 24] and a [3]; only where there is an anchor.
+    void set_anchor(const torch::Tensor& weight, const torch::Tensor& bias);
 
 private:
     friend class SelectionRun;
-    void start_anchor();
 
     ModelSettings m_settings;
     bool m_perceptual;
