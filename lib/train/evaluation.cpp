@@ -121,12 +121,14 @@ int EvaluationSet::crops() const
     return static_cast<int>(count);
 }
 
-Scores evaluate(Unprocessor& method, const EvaluationSet& set)
+Scores evaluate(Unprocessor& method, const EvaluationSet& set, const std::function<void(double)>& progress)
 {
     const bool was_training = method.is_training();
     method.eval();
     Scores scores;
     std::vector<ScoreGroup> cameras;
+    double done = 0;
+    const double work = set.m_state->crops.size() + (set.m_state->unpaired ? 1 : 0);
     for (const TestCrops& crops : set.m_state->crops) {
         std::vector<ScoreGroup> groups = crops.by_camera;
         const auto result = batched_reverse(method, crops.source, crops.reference, set.m_state->settings.thumbnail_px);
@@ -135,6 +137,8 @@ Scores evaluate(Unprocessor& method, const EvaluationSet& set)
         measure(crops, with_true_means(result, crops.truth, false), &ScoreGroup::model_oracle_gain, groups);
         scores.groups.push_back(total(groups));
         cameras.insert(cameras.end(), groups.begin(), groups.end());
+        if (progress)
+            progress(++done / work);
     }
     scores.groups.insert(scores.groups.end(), cameras.begin(), cameras.end());
     if (set.m_state->unpaired)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <functional>
 #include <memory>
 
 #include <srisp/expected.h>
@@ -59,13 +59,14 @@ public:
     int crops() const; ///< in all sets and renderings
 
 private:
-    friend Scores evaluate(Unprocessor& method, const EvaluationSet& set);
+    friend Scores evaluate(Unprocessor& method, const EvaluationSet& set, const std::function<void(double)>& progress);
     struct State;
     explicit EvaluationSet(std::unique_ptr<const State> state);
     std::unique_ptr<const State> m_state;
 };
 
-/// Runs a method on all test images, without gradients, on the device where its parameters are.
-Scores evaluate(Unprocessor& method, const EvaluationSet& set);
+/// Runs a method on all test images, without gradients, on the device where its parameters are. `progress` gets the
+/// part that is done, 0 … 1, now and then.
+Scores evaluate(Unprocessor& method, const EvaluationSet& set, const std::function<void(double)>& progress = {});
 
 } // namespace srisp::train

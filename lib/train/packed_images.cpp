@@ -18,7 +18,8 @@ std::vector<std::size_t> whole_images(const PackedImages& images, bool validatio
     std::vector<std::size_t> whole;
     for (std::size_t i = 0; i < images.entries.size(); ++i) {
         const PackEntry& entry = images.entries[i];
-        if (entry.crop == std::array<float, 4>{ 0, 0, 1, 1 } && (entry.validation || !validation_only))
+        const bool first_of_scene = i == 0 || images.entries[i - 1].scene != entry.scene;
+        if (first_of_scene && (entry.validation || !validation_only))
             whole.push_back(i);
     }
     return whole;

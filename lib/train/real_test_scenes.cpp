@@ -5,7 +5,6 @@
 
 #include "evaluation.h"
 #include "evenly_spread.h"
-#include "masked_images.h"
 #include "packed_images.h"
 #include "random.h"
 #include "test_scenes.h"
@@ -45,18 +44,13 @@ TestScenes real_test_scenes(const EvaluationSettings& settings, const PackedImag
     for (const auto& [camera, all] : by_camera) {
         for (const std::size_t which : evenly_spread(all.size(), settings.real_images)) {
             const std::size_t i = all[which];
-            const auto image = packed_image(raws, i);
-            const std::optional<Window> window = unmasked_window(image);
-            if (!window)
-                continue;
             if (scenes.cameras.empty() || scenes.cameras.back() != camera)
                 scenes.cameras.push_back(camera);
             scenes.camera.push_back(static_cast<int>(scenes.cameras.size()) - 1);
             Random random(settings.seed, kExposureStream, i);
             const double level =
                 std::exp(random.uniform(std::log(settings.exposure_low), std::log(settings.exposure_high)));
-            images.push_back(
-                exposed(area_crop(image.unsqueeze(0), { *window }, raws.size, raws.size).squeeze(0), level));
+            images.push_back(exposed(packed_image(raws, i), level));
             white_balances.push_back(white_balance(raws.entries[i], images.back()));
             colors.push_back(torch::tensor(at::ArrayRef<float>(raws.entries[i].color)).view({ 3, 3 }));
         }

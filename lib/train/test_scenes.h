@@ -22,8 +22,8 @@ struct TestScenes {
     torch::Tensor color; ///< [N, 3, 3], white-balanced camera RGB → linear sRGB, the camera's own; 0 where not known
 };
 
-/// The pack's real RAW images, equally many of each camera, spread evenly over them; masked colour charts cut off.
-/// Stored images may have lost their exposure (each divided by its own maximum), so each gets a random one.
+/// The pack's real RAW images, equally many of each camera, spread evenly over its images. Stored
+/// images may have lost their exposure (each divided by its own maximum), so each gets a random one.
 TestScenes real_test_scenes(const EvaluationSettings& settings, const PackedImages& raws);
 
 /// Photos, cameras and lights that are marked for validation, simulated.

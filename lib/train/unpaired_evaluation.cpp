@@ -17,10 +17,6 @@ namespace srisp::train {
 
 namespace {
 
-/// Linear sRGB → XYZ, D65 (IEC 61966-2-1).
-constexpr Matrix3 kSrgbToXyz{ 0.4124564f, 0.3575761f, 0.1804375f, 0.2126729f, 0.7151522f,
-                              0.0721750f, 0.0193339f, 0.1191920f, 0.9503041f };
-
 /// Camera RGB as recorded → XYZ: white balance, then the camera's own matrix.
 Matrix3 camera_to_xyz(const torch::Tensor& white_balance, const torch::Tensor& color)
 {
