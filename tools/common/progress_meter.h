@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace srisp {
+
+/// "srisppack: 1200 of 3458 images, 310/s, 7 s left" on stderr, once two seconds have passed: one line that is renewed
+/// on a terminal and wiped at the end, elsewhere a line every half minute.
+class ProgressMeter {
+public:
+    /// `title`: begins the line; `unit`: what is counted, plural.
+    ProgressMeter(std::string title, std::string unit, std::int64_t total, bool enabled);
+    ~ProgressMeter() { wipe(); }
+    ProgressMeter(const ProgressMeter&) = delete;
+    ProgressMeter& operator=(const ProgressMeter&) = delete;
+
+    void show(std::int64_t done);
+    /// Before something else is printed.
+    void wipe();
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    std::string m_title, m_unit;
+    std::int64_t m_total;
+    bool m_enabled, m_terminal, m_shown = false;
+    Clock::time_point m_start, m_last;
+};
+
+} // namespace srisp

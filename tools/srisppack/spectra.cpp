@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "spectra.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "../common/failure.h"
+#include "csv_table.h"
+#include "safetensors.h"
+#include "strict_json.h"
+
+namespace srisp {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uint64_t kMaxBytes = 1 << 26;
+
+double as_number(const std::string& text, const std::string& where)
+{
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0' || !std::isfinite(value))
+        fail(where + ": '" + text + "' is no finite number");
+    return value;
+}
+
+/// Puts the rows in order and checks what both formats must keep.
+SpectraTable from_rows(SpectraTable table, const std::map<double, std::vector<double>>& rows)
+{
+    if (table.columns.empty() || rows.empty())
+        fail(table.where + " holds no spectra");
+    if (rows.begin()->first > 400 || rows.rbegin()->first < 700)
+        fail(table.where + " covers " + std::to_string(int(rows.begin()->first)) + " to " +
+             std::to_string(int(rows.rbegin()->first)) + " nm, 400 to 700 are needed");
+    table.values.resize(table.columns.size());
+    for (const auto& [wavelength, values] : rows) {
+        if (values.size() != table.columns.size())
+            fail(table.where + ", " + std::to_string(wavelength) + " nm: has " + std::to_string(values.size()) +
+                 " numbers, needs " + std::to_string(table.columns.size()));
+        table.wavelengths_nm.push_back(wavelength);
+        for (std::size_t column = 0; column < values.size(); ++column)
+            table.values[column].push_back(values[column]);
+    }
+    return table;
+}
+
+std::string text_of(const json& header, const char* key)
+{
+    return header.is_object() && header.contains(key) && header[key].is_string() ? header[key].get<std::string>()
+                                                                                 : std::string();
+}
+
+} // namespace
+
+SpectraTable read_spectra_json(const std::string& path)
+{
+    SpectraTable table;
+    table.where = "'" + path + "'";
+    const Expected<std::string> text = read_file(path, kMaxBytes, "spectra");
+    if (!text)
+        fail(text.error().message);
+    const Expected<json> file = parse_json_object(*text, table.where, "file");
+    if (!file)
+        fail(file.error().message);
+    const json header = file->value("header", json::object());
+    table.manufacturer = text_of(header, "manufacturer");
+    table.model = text_of(header, "model");
+    table.licence = text_of(header, "license");
+    const json columns = file->value("/spectral_data/index/main"_json_pointer, json());
+    const json data = file->value("/spectral_data/data/main"_json_pointer, json());
+    if (!columns.is_array() || !data.is_object())
+        fail(table.where + " has no spectral_data with index and data");
+    for (const json& column : columns)
+        table.columns.push_back(column.is_string() ? column.get<std::string>() : column.dump());
+    std::map<double, std::vector<double>> rows;
+    for (const auto& [wavelength, values] : data.items()) {
+        std::vector<double>& row = rows[as_number(wavelength, table.where)];
+        for (const json& value : values) {
+            if (!value.is_number() || !std::isfinite(value.get<double>()))
+                fail(table.where + ", " + wavelength + " nm: " + value.dump() + " is no finite number");
+            row.push_back(value.get<double>());
+        }
+    }
+    return from_rows(std::move(table), rows);
+}
+
+SpectraTable read_spectra_csv(const std::string& path)
+{
+    const CsvTable csv = read_csv(path);
+    SpectraTable table;
+    table.where = "'" + path + "'";
+    if (csv.columns.empty() || csv.columns[0] != "wavelength_nm")
+        fail(table.where + ": the first column must be 'wavelength_nm'");
+    table.columns.assign(csv.columns.begin() + 1, csv.columns.end());
+    std::map<double, std::vector<double>> rows;
+    for (const std::vector<std::string>& fields : csv.rows) {
+        std::vector<double>& row = rows[as_number(fields[0], table.where)];
+        for (std::size_t i = 1; i < fields.size(); ++i)
+            row.push_back(as_number(fields[i], table.where + ", " + fields[0] + " nm, '" + csv.columns[i] + "'"));
+    }
+    return from_rows(std::move(table), rows);
+}
+
+Spectrum resampled(const SpectraTable& table, std::size_t column)
+{
+    Spectrum result{};
+    const std::vector<double>&at = table.wavelengths_nm, &values = table.values[column];
+    for (int i = 0; i < kPackWavelengths; ++i) {
+        const double wavelength = double(kFirstWavelength_nm) + i * double(kWavelengthStep_nm);
+        const auto above = std::lower_bound(at.begin(), at.end(), wavelength);
+        if (above == at.end() || (above == at.begin() && *above > wavelength))
+            continue;
+        const std::size_t high = std::size_t(above - at.begin()), low = *above == wavelength ? high : high - 1;
+        const double part = high == low ? 0 : (wavelength - at[low]) / (at[high] - at[low]);
+        result[i] = values[low] + part * (values[high] - values[low]);
+    }
+    return result;
+}
+
+} // namespace srisp

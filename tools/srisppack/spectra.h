@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "training_pack.h"
+
+namespace srisp {
+
+/// Spectra measured at the same wavelengths.
+struct SpectraTable {
+    std::string where;                        ///< "'path'", for messages
+    std::string manufacturer, model, licence; ///< "" if not stated
+    std::vector<std::string> columns;
+    std::vector<double> wavelengths_nm;      ///< rising
+    std::vector<std::vector<double>> values; ///< [column][wavelength]
+};
+
+/// Reads a spectral file as the rawtoaces data set has them (JSON with `header` and `spectral_data`; 380 nm: a list of
+/// one number per column). Fails with file and wavelength: no such file, no such table, other lengths, numbers that are
+/// not finite, less than 400 … 700 nm.
+SpectraTable read_spectra_json(const std::string& path);
+
+/// Reads a table whose first column is `wavelength_nm`, and each other one a spectrum.
+SpectraTable read_spectra_csv(const std::string& path);
+
+/// A spectrum at the wavelengths of a pack, linear between those measured, 0 beyond them.
+using Spectrum = std::array<double, kPackWavelengths>;
+Spectrum resampled(const SpectraTable& table, std::size_t column);
+
+} // namespace srisp
