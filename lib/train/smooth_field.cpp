@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "smooth_field.h"
+
+#include <cmath>
+
+namespace srisp::train {
+
+namespace {
+
+/// [size, knots]: cubic B-splines whose knots span the axis.
+torch::Tensor spline_weights(std::int64_t size, int cells)
+{
+    auto weights = torch::zeros({ size, cells + 3 });
+    auto weight = weights.accessor<float, 2>();
+    for (std::int64_t i = 0; i < size; ++i) {
+        const double position = (i + 0.5) / size * cells;
+        const int cell = static_cast<int>(position);
+        const double t = position - cell;
+        const double basis[] = { std::pow(1 - t, 3) / 6, (3 * t * t * t - 6 * t * t + 4) / 6,
+                                 (-3 * t * t * t + 3 * t * t + 3 * t + 1) / 6, t * t * t / 6 };
+        for (int k = 0; k < 4; ++k)
+            weight[i][cell + k] = static_cast<float>(basis[k]);
+    }
+    return weights;
+}
+
+} // namespace
+
+torch::Tensor smooth_fields(Randoms& randoms, std::int64_t height, std::int64_t width, const torch::Device& device)
+{
+    torch::Tensor field;
+    double strength = 1;
+    for (int cells = 1; cells <= 8; cells *= 2, strength *= 0.6) {
+        const auto knots = noise(randoms, { 1, cells + 3, cells + 3 }).to(device);
+        const auto octave = torch::matmul(spline_weights(height, cells).to(device),
+                                          torch::matmul(knots, spline_weights(width, cells).t().to(device)));
+        field = field.defined() ? field + strength * octave : octave;
+    }
+    field = field - field.mean({ 2, 3 }, true);
+    return field / field.square().mean({ 2, 3 }, true).sqrt().clamp_min(1e-6);
+}
+
+} // namespace srisp::train

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "random_isp.h"
+#include "samples.h"
+#include "simulation.h"
+
+namespace srisp::train {
+
+/// How a pack becomes samples. "Render whole, then crop": an exposure is rendered once, for the whole scene; source,
+/// truth and reference are crops of it. Defaults: method.md sections 4 and 6, second series.
+struct DataSettings {
+    SimulationSettings simulation;
+    RandomIspSettings isp;
+    int image_size = 64;
+    bool open_only = true;
+    double whole_share = 0.5;
+    double raw_share = 0;
+    double lowest_raw_exposure = 0.3, highest_raw_exposure = 3;
+    std::string rendering = "random";
+    double other_scene = 0.25, half_split = 0.40, upright_split = 0.25;
+    double smallest_crop = 0.4;
+    double blurred = 0;
+    int smallest_detail = 24;
+    bool flip = true, rotate = true;
+
+    template<class Visitor> void describe(Visitor& v)
+    {
+        v.group("simulation", simulation);
+        v.group("isp", isp);
+        v.integer("image_size", image_size, 16, 1024, "width and height of samples, px");
+        v.flag("open_only", open_only, "only images that a model may be given away with");
+        v.number("whole_share", whole_share, 0, 1, "share of scenes that are whole photos; the rest: the pack's crops");
+        v.number("raw_share", raw_share, 0, 1, "share of scenes that are real RAW images of the pack, not simulated");
+        v.range("raw_exposure", lowest_raw_exposure, highest_raw_exposure, 1e-3, 100,
+                "factor on real RAW, evenly in its log: stored ones have lost their exposure");
+        v.choice("rendering", rendering, { "random", "fixed" },
+                 "ISP_rand, or a fixed target with the camera's own matrix as a stand-in for real pairs");
+        v.number("other_scene", other_scene, 0, 1, "share of references from another scene, camera and light the same");
+        v.number("half_split", half_split, 0, 1,
+                 "share of references that are one half of the scene, the source a quarter of the other; the rest of "
+                 "the references are another crop of the scene");
+        v.number("upright_split", upright_split, 0, 1,
+                 "share of these that split top and bottom, as in upright photos");
+        v.number("smallest_crop", smallest_crop, 0.05, 1, "shortest side of a crop, in parts of the scene's");
+        v.number("blurred", blurred, 0, 1, "share of thumbnails that are enlarged from fewer pixels");
+        v.integer("smallest_detail", smallest_detail, 4, 1024, "fewest pixels that these are enlarged from");
+        v.flag("flip", flip, "mirror half of the samples");
+        v.flag("rotate", rotate, "turn samples by multiples of 90°");
+    }
+};
+
+/// What samples are made of, as in a TrainingPack; `owner` keeps the pixels alive.
+struct SampleSources {
+    PackedImages photos, raws;
+    PackedCameras cameras;
+    std::shared_ptr<const void> owner;
+};
+
+/// Samples of a pack's training images and cameras, made on `device` (pixels are unpacked and random numbers drawn on
+/// the CPU). Throws std::runtime_error where the pack has nothing to make them of. Threads: one caller at a time.
+std::unique_ptr<Samples> make_samples(const DataSettings& settings, std::shared_ptr<const TrainingPack> pack,
+                                      std::uint64_t seed, const torch::Device& device = torch::kCPU);
+std::unique_ptr<Samples> make_samples(const DataSettings& settings, const SampleSources& sources, std::uint64_t seed,
+                                      const torch::Device& device = torch::kCPU);
+
+} // namespace srisp::train
