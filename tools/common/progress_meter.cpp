@@ -14,8 +14,7 @@ ProgressMeter::ProgressMeter(std::string title, std::string unit, std::int64_t t
 {
 }
 
-/// "45 s", "12 min", "3 h 20 min"
-static std::string duration(double seconds)
+std::string duration_text(double seconds)
 {
     const long whole = std::max(1L, long(seconds + 0.5));
     if (whole < 100)
@@ -35,7 +34,7 @@ void ProgressMeter::show(std::int64_t done)
     const double rate = double(done) / std::chrono::duration<double>(now - m_start).count();
     std::fprintf(stderr, "%s%s: %lld of %lld %s, %.*f/s, %s left%s", m_terminal ? "\r\033[K" : "", m_title.c_str(),
                  static_cast<long long>(done), static_cast<long long>(m_total), m_unit.c_str(), rate < 10 ? 1 : 0, rate,
-                 duration(double(m_total - done) / rate).c_str(), m_terminal ? "" : "\n");
+                 duration_text(double(m_total - done) / rate).c_str(), m_terminal ? "" : "\n");
     std::fflush(stderr);
 }
 

@@ -7,6 +7,9 @@
 
 namespace srisp {
 
+/// "45 s", "12 min", "3 h 20 min"
+std::string duration_text(double seconds);
+
 /// "srisppack: 1200 of 3458 images, 310/s, 7 s left" on stderr, once two seconds have passed: one line that is renewed
 /// on a terminal and wiped at the end, elsewhere a line every half minute.
 class ProgressMeter {

@@ -11,12 +11,15 @@
 #include "camera_files.h"
 #include "camera_folder.h"
 #include "file_bytes.h"
+#include "seeded_hash.h"
 
 namespace srisp {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr std::size_t kLeastWithValidation = 5; // fewer are all needed for training
 
 enum class Kind { photo, raw, set, other };
 enum class Role { recognise, photos, raws };
@@ -143,6 +146,18 @@ private:
     Inputs& m_inputs;
 };
 
+/// Where a hash of names leaves no image of a small folder for validation, the one with the lowest hash is.
+void choose_one_for_validation(std::vector<ImageInput>& images)
+{
+    const auto chosen = [](const ImageInput& image) { return image.provenance.listed || image.provenance.validation; };
+    if (images.size() < kLeastWithValidation || std::any_of(images.begin(), images.end(), chosen))
+        return;
+    const auto hash = [](const ImageInput& image) { return seeded_hash(0, image.name); };
+    std::min_element(images.begin(), images.end(), [&](const ImageInput& a, const ImageInput& b) {
+        return hash(a) < hash(b);
+    })->provenance.validation = true;
+}
+
 } // namespace
 
 Inputs find_inputs(const Options& options)
@@ -160,6 +175,8 @@ Inputs find_inputs(const Options& options)
             fail("input '" + folder + "' is no folder of cameras: it has no folder 'sensitivities'");
         finder.add_cameras(folder);
     }
+    choose_one_for_validation(inputs.photos);
+    choose_one_for_validation(inputs.raws);
     if (inputs.photos.empty() && inputs.raws.empty() && inputs.sets.empty() && inputs.cameras.empty()) {
         std::string why = "the inputs hold no photos, RAW files or cameras";
         if (inputs.not_open > 0)

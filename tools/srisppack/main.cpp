@@ -5,8 +5,8 @@
 #include <OpenImageIO/imageio.h>
 
 #include "../common/failure.h"
+#include "../common/interrupt.h"
 #include "help.h"
-#include "interrupt.h"
 #include "pack_run.h"
 
 using namespace srisp;

@@ -54,6 +54,7 @@ Manifest Manifest::of_folder(const std::string& folder)
     for (const std::vector<std::string>& row : table.rows) {
         const std::string where = "'" + path + "', file '" + row[file] + "'";
         Provenance provenance;
+        provenance.listed = true;
         provenance.validation = either(row, use, "validation", "training", where);
         provenance.open = either(row, open, "yes", "no", where);
         if (source >= 0 && !row[source].empty())

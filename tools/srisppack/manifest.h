@@ -8,6 +8,7 @@ namespace srisp {
 
 /// What is known of a file beside its pixels.
 struct Provenance {
+    bool listed = false; ///< in a manifest
     bool open = false, validation = false;
     std::string source = "not stated", licence = "not stated";
 };

@@ -7,7 +7,7 @@
 #include <OpenImageIO/parallel.h>
 
 #include "../common/failure.h"
-#include "interrupt.h"
+#include "../common/interrupt.h"
 
 namespace srisp {
 

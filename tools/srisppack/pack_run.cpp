@@ -7,8 +7,8 @@
 #include <srisp/image.h>
 
 #include "../common/failure.h"
+#include "../common/interrupt.h"
 #include "camera_folder.h"
-#include "interrupt.h"
 #include "linear_set.h"
 #include "photo_task.h"
 #include "raw_task.h"

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
+#include "../common/interrupt.h"
 #include "area_squasher.h"
 #include "photo_file.h"
 
 #include "crops.h"
-#include "interrupt.h"
 
 namespace srisp {
 

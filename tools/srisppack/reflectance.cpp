@@ -10,8 +10,8 @@ namespace srisp {
 
 namespace {
 
-// The fourth principal component of measured reflectances is about ten times weaker than the third, in variance: each
-// step brings the three closer by that factor.
+// The fourth principal component of the 190 measured reflectances has half the variance of the third: each step brings
+// the three closer by that factor, 200 by more than double precision can show.
 constexpr int kIterations = 200;
 
 double dot(const Spectrum& a, const Spectrum& b)
