@@ -11,7 +11,8 @@ torch::Tensor convolve_each(torch::Tensor x, const torch::Tensor& weight, const 
     const std::int64_t images = weight.size(0), kernel = weight.size(-1);
     if (kernel == 3)
         x = torch::replication_pad2d(x, { 1, 1, 1, 1 });
-    return torch::conv2d(x, weight.flatten(0, 1), bias.flatten(), 1, 0, 1, images);
+    return torch::conv2d(x, weight.flatten(0, 1), bias.flatten(), torch::IntArrayRef{ 1 }, torch::IntArrayRef{ 0 },
+                         torch::IntArrayRef{ 1 }, images);
 }
 
 } // namespace
