@@ -28,6 +28,8 @@ std::uint16_t half_from_float(float value)
         return sign | 0x7e00;
     if (magnitude >= 65520.0f) // halfway between the largest half and the next power of two
         return sign | 0x7c00;
+    if (magnitude == 0)
+        return sign;
     int exponent = 0;
     std::frexp(magnitude, &exponent); // magnitude = m · 2^exponent, m in [0.5, 1)
     // Halves of this magnitude are multiples of 2^(exponent − 11); subnormal ones, of 2^−24.
