@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "../../../tools/srisppack/options.h"
+
+#include <doctest/doctest.h>
+
+#include "../../../tools/srisppack/help.h"
+
+using namespace srisp;
+
+TEST_CASE("the help names every option of srisppack, and no other")
+{
+    CLI::App app;
+    Options options;
+    describe_options(app, options);
+    const std::string help = kHelp;
+    std::size_t named = 0;
+    for (const CLI::Option* option : app.get_options())
+        for (const std::string& name : option->get_lnames()) {
+            CHECK_MESSAGE(help.find("--" + name + " ") != std::string::npos, name);
+            ++named;
+        }
+    std::size_t lines = 0; // of options: indented by two
+    for (std::size_t at = help.find("\n  -"); at != std::string::npos; at = help.find("\n  -", at + 1))
+        ++lines;
+    CHECK(named == lines);
+}
