@@ -37,6 +37,8 @@ Expected<json> parse_json_object(const std::string& text, const std::string& whe
         object = json::parse(text, watch);
     } catch (const json::parse_error& error) {
         return Error{ message + " (" + place(text, error.byte) + ")" };
+    } catch (const json::out_of_range&) { // the one other thing that parse throws
+        return Error{ message + " that can be read (a number is too large)" };
     }
     if (!object.is_object())
         return Error{ message };
