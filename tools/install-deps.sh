@@ -1,7 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # Installs the Debian packages that srisp needs. Says nothing where all are there.
-#   sh tools/install-deps.sh [build]     build: what building and running needs, without what only the tests need
+#   sh tools/install-deps.sh           everything, for the tests, too
+#   sh tools/install-deps.sh build     what building and running needs, without the tests and the trainer
+#   sh tools/install-deps.sh train     the trainer alone (-DSRISP_TRAINER_ONLY=ON): a machine that only trains
 set -eu
 
 packages="
@@ -12,10 +14,12 @@ packages="
 "
 test_packages="clang-format-14 dcraw libimage-exiftool-perl libraw-bin make man-db mount
     python3 python3-numpy python3-openimageio"
+trainer_packages="libgloo-dev libtorch-dev"
 case "$#${1:-}" in
-    0) packages="$packages $test_packages" ;;
+    0) packages="$packages $trainer_packages $test_packages" ;;
     1build) ;;
-    *) echo "usage: sh tools/install-deps.sh [build]" >&2; exit 2 ;;
+    1train) packages="cmake g++ ninja-build doctest-dev libcli11-dev nlohmann-json3-dev $trainer_packages" ;;
+    *) echo "usage: sh tools/install-deps.sh [build|train]" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query >/dev/null; then

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model_files.h"
 
-#include <dlfcn.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <sstream>
 
 #include "near_names.h"
+#include "shared_folder.h"
 
 namespace srisp {
 
@@ -18,25 +17,6 @@ namespace {
 
 const char kExtension[] = ".safetensors";
 
-/// `share/srisp/models` beside the library or plugin that this code is in: the install tree and the build tree have the
-/// same layout, so no path is compiled in and both can be moved.
-fs::path folder_beside_library()
-{
-    Dl_info info;
-    if (dladdr(reinterpret_cast<const void*>(&folder_beside_library), &info) == 0)
-        return {};
-    std::error_code error;
-    // Of a program, not a library, dladdr knows only what it was called by.
-    const fs::path file = info.dli_fname[0] == '/' ? info.dli_fname : "/proc/self/exe";
-    for (fs::path folder = fs::canonical(file, error).parent_path(); folder.has_relative_path();
-         folder = folder.parent_path()) {
-        const fs::path models = folder / "share/srisp/models";
-        if (fs::is_directory(models, error))
-            return models;
-    }
-    return {};
-}
-
 std::vector<fs::path> model_folders()
 {
     std::vector<fs::path> folders;
@@ -45,7 +25,7 @@ std::vector<fs::path> model_folders()
     for (std::string folder; std::getline(list, folder, ':');)
         if (!folder.empty())
             folders.push_back(folder);
-    if (const fs::path folder = folder_beside_library(); !folder.empty())
+    if (const fs::path folder = shared_folder("models"); !folder.empty())
         folders.push_back(folder);
     return folders;
 }

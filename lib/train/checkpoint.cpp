@@ -27,7 +27,7 @@ Status save_checkpoint(const TrainingState& state, const std::string& path)
                              { { "format", kFormat },
                                { "numbers", nlohmann::json(state.numbers).dump() },
                                { "layout", state.layout },
-                               { "recipe", state.recipe } });
+                               { "texts", nlohmann::json(state.texts).dump() } });
 }
 
 Expected<TrainingState> load_checkpoint(const std::string& path)
@@ -42,19 +42,16 @@ Expected<TrainingState> load_checkpoint(const std::string& path)
     auto& metadata = file->metadata;
     if (metadata["format"] != kFormat)
         return Error{ where + ": format is '" + metadata["format"] + "', this program reads '" + kFormat + "'" };
-    const nlohmann::json numbers = nlohmann::json::parse(metadata["numbers"], nullptr, false);
-    if (!numbers.is_object())
-        return Error{ where + ": 'numbers' is not a JSON object" };
     TrainingState state;
-    for (const auto& [name, value] : numbers.items()) {
-        if (!value.is_number())
-            return Error{ where + ": '" + name + "' is not a number" };
-        state.numbers[name] = value.get<double>();
+    try {
+        state.numbers = nlohmann::json::parse(metadata["numbers"]).get<std::map<std::string, double>>();
+        state.texts = nlohmann::json::parse(metadata["texts"]).get<std::map<std::string, std::string>>();
+    } catch (const nlohmann::json::exception&) {
+        return Error{ where + ": metadata 'numbers' or 'texts' is broken" };
     }
     for (const auto& [name, tensor] : file->tensors)
         state.tensors[name] = torch::tensor(tensor.values).reshape(tensor.shape);
     state.layout = metadata["layout"];
-    state.recipe = metadata["recipe"];
     return state;
 }
 

@@ -15,7 +15,7 @@ struct TrainingState {
     std::map<std::string, torch::Tensor> tensors; ///< float32 vectors: weights, averages, moments of the optimiser
     std::map<std::string, double> numbers;        ///< step, best score, seconds, …
     std::string layout;                           ///< ParameterVector::layout
-    std::string recipe;                           ///< JSON, as resolved
+    std::map<std::string, std::string> texts;     ///< what it was trained by: recipe, pack
 };
 
 /// Writes a state, whole or not at all: a safetensors file (format "srisp-checkpoint-1"). Errors: the disk's own.

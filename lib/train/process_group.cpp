@@ -8,7 +8,10 @@
 #include <chrono>
 #include <stdexcept>
 
-#ifdef USE_C10D_GLOO
+#ifdef SRISP_HAS_GLOO
+#ifndef USE_C10D_GLOO // LibTorch's own flags have it in some builds
+#define USE_C10D_GLOO
+#endif
 #include <torch/csrc/distributed/c10d/PrefixStore.hpp>
 #include <torch/csrc/distributed/c10d/ProcessGroupGloo.hpp>
 #include <torch/csrc/distributed/c10d/TCPStore.hpp>
@@ -16,7 +19,7 @@
 
 namespace srisp::train {
 
-#ifdef USE_C10D_GLOO
+#ifdef SRISP_HAS_GLOO
 
 namespace {
 

@@ -34,7 +34,6 @@ std::string choices_text(const std::vector<std::string>& allowed)
     return text;
 }
 
-/// {"loss": {"clip_norm": 2}} → {"loss.clip_norm": 2}
 void flatten(const json& object, const std::string& prefix, json& values)
 {
     for (const auto& [name, value] : object.items())
@@ -64,9 +63,8 @@ void KeyedVisitor::leave()
 }
 
 SettingsReader::SettingsReader(const json& object, std::string where)
-    : m_values(json::object()), m_where(std::move(where))
+    : m_values(flat_settings(object)), m_where(std::move(where))
 {
-    flatten(object, "", m_values);
 }
 
 const json* SettingsReader::find(const char* name)
@@ -227,6 +225,13 @@ void SettingsLister::range(const char* name, double& low, double& high, double l
 {
     m_rows.push_back({ key(name), "[" + number_text(low) + ", " + number_text(high) + "]",
                        interval_text(low_limit, high_limit), text });
+}
+
+json flat_settings(const json& object)
+{
+    json values = json::object();
+    flatten(object, "", values);
+    return values;
 }
 
 Expected<json> parse_assignment(const std::string& assignment)

@@ -97,6 +97,9 @@ private:
     std::vector<SettingRow> m_rows;
 };
 
+/// {"loss": {"clip_norm": 2}} → {"loss.clip_norm": 2}
+nlohmann::json flat_settings(const nlohmann::json& object);
+
 /// Turns "loss.clip_norm=2" into {"loss.clip_norm": 2}: what follows "=" is JSON, two numbers with a comma between
 /// them, or else a text.
 Expected<nlohmann::json> parse_assignment(const std::string& assignment);

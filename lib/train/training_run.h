@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+#include <srisp/expected.h>
+
+#include "run_log.h"
+#include "trainer.h"
+
+namespace srisp::train {
+
+/// When a run tests, logs and saves.
+struct RunSettings {
+    int validate_every = 200;
+    int log_every = 10;
+    double checkpoint_minutes = 3;
+    double divergence = 5;
+
+    template<class Visitor> void describe(Visitor& v)
+    {
+        v.integer("validate_every", validate_every, 1, 100'000'000, "steps between two validations");
+        v.integer("log_every", log_every, 1, 1'000'000, "steps between two lines of the log");
+        v.number("checkpoint_minutes", checkpoint_minutes, 0, 1440, "between two checkpoints; 0: every step");
+        v.number("divergence", divergence, 1.1, 1e9,
+                 "stop when the smoothed loss exceeds its lowest value this many times");
+    }
+};
+
+/// What a validation found.
+struct Validation {
+    double score = 0;           ///< the model with the highest is kept
+    double psnr = 0, angle = 0; ///< for people: dB and degrees
+    nlohmann::ordered_json details;
+};
+
+/// How far a run is.
+struct Progress {
+    std::int64_t step = 0, steps = 0;
+    double steps_per_second = 0, seconds_left = 0;
+    double data_share = 0, learning_share = 0; ///< of the time of the steps: making batches; forward and backward
+    StepReport report;                         ///< of the last step
+    std::optional<Validation> last_validation;
+};
+
+/// What a run needs from outside, and whom it tells.
+class RunHost {
+public:
+    virtual ~RunHost() = default;
+    /// Tests a model; nothing where there is nothing to test on.
+    virtual std::optional<Validation> validate(Unprocessor& model) = 0;
+    /// Writes a model file.
+    virtual Status save_model(Unprocessor& model, const std::string& path, const std::optional<Validation>& result,
+                              std::int64_t step) = 0;
+    virtual void progress(const Progress& progress) = 0;
+    /// Something that a person should know: one line.
+    virtual void note(const std::string& line) = 0;
+};
+
+enum class RunEnd { finished, stopped, diverged };
+
+/// The files of an output folder.
+constexpr char kCheckpointFile[] = "checkpoint.safetensors", kBestFile[] = "best.safetensors";
+constexpr char kRecipeFile[] = "recipe.json";
+
+/// Runs a trainer to its end, with validations, logs and checkpoints in an output folder; only rank 0 writes.
+class TrainingRun {
+public:
+    /// `origin`: what checkpoints keep so that only the same training goes on from them.
+    TrainingRun(Trainer& trainer, ProcessGroup& group, const RunSettings& settings, std::int64_t steps,
+                std::map<std::string, std::string> origin, std::string folder, RunHost& host);
+
+    /// Goes on from a checkpoint of the same recipe. Call it on rank 0 only, before `go`.
+    Status resume(const TrainingState& state);
+
+    /// Trains until the end, until `stop` says so (a checkpoint is written then), or until the loss is no number or
+    /// explodes. Errors: the last checkpoint or model could not be written.
+    Expected<RunEnd> go(const std::function<bool()>& stop);
+
+private:
+    using Clock = std::chrono::steady_clock;
+    enum class When { at_interval, now };
+
+    bool diverges(double loss);
+    void take_time(const StepReport& report);
+    void report(const StepReport& step);
+    void validate();
+    void checkpoint(When when);
+    double seconds() const;
+    void log(const nlohmann::ordered_json& entry);
+    Expected<RunEnd> end_badly(const std::string& reason);
+    Expected<RunEnd> end(RunEnd how);
+
+    Trainer& m_trainer;
+    ProcessGroup& m_group;
+    RunSettings m_settings;
+    std::int64_t m_steps;
+    std::map<std::string, std::string> m_origin;
+    std::string m_folder;
+    RunHost& m_host;
+    RunLog m_log;
+    Clock::time_point m_start = Clock::now(), m_last_checkpoint = Clock::now();
+    std::int64_t m_first_step = 0;
+    double m_earlier_seconds = 0; ///< of the runs that this one goes on from
+    double m_best_score = -1e300, m_best_step = -1;
+    double m_smoothed_loss = -1, m_lowest_loss = -1;
+    double m_data_seconds = 0, m_learning_seconds = 0, m_step_seconds = 0;
+    double m_logged_seconds = 0;
+    std::int64_t m_logged_step = 0;
+    bool m_log_failed = false;
+    std::string m_checkpoint_error, m_best_error;
+    std::optional<Validation> m_last_validation;
+};
+
+} // namespace srisp::train

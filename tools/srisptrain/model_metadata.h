@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "recipe.h"
+#include "training_pack.h"
+
+namespace srisp {
+
+/// What a model file says of how it came about: train_data and license (open images only: the recipe's; else that it
+/// may not be given away), train_commit, date.
+std::map<std::string, std::string> model_metadata(const train::Recipe& recipe, const TrainingPack& pack);
+
+} // namespace srisp

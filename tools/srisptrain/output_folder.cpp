@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "output_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "../common/failure.h"
+
+namespace srisp {
+
+using namespace train;
+namespace fs = std::filesystem;
+
+OutputFolder::OutputFolder(const std::string& path) : m_path(path)
+{
+    std::error_code error;
+    fs::create_directories(path, error);
+    m_lock = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (m_lock < 0)
+        fail("cannot make the folder '" + path + "': " + (error ? error.message() : std::strerror(errno)));
+    // Some network file systems cannot lock; there nobody is kept out.
+    if (flock(m_lock, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        fail("another training is writing to '" + path + "'; give this one its own --output");
+}
+
+OutputFolder::~OutputFolder()
+{
+    close(m_lock);
+}
+
+void OutputFolder::clear()
+{
+    for (const char* name : { kCheckpointFile, kBestFile, kRecipeFile, kCsvLog, kJsonLog }) {
+        std::error_code error;
+        fs::remove(file(name), error);
+        if (error)
+            fail("cannot remove '" + file(name) + "': " + error.message());
+    }
+}
+
+std::map<std::string, std::string> origin_of(const Recipe& recipe, const std::string& pack_hash)
+{
+    return { { "recipe", recipe_text(recipe) }, { "pack", pack_hash } };
+}
+
+std::optional<TrainingState> find_checkpoint(const std::string& folder, const Recipe& recipe,
+                                             const std::string& pack_hash)
+{
+    const std::string path = folder + "/" + kCheckpointFile;
+    std::error_code error;
+    if (!fs::exists(path, error))
+        return {};
+    Expected<TrainingState> state = load_checkpoint(path);
+    const std::string advice = "; --restart starts again, --output NAME keeps both";
+    if (!state)
+        fail(state.error().message + advice);
+    std::string difference = recipe_difference(state->texts["recipe"], recipe);
+    if (state->texts["pack"] != pack_hash)
+        difference += (difference.empty() ? "" : "; ") +
+                      ("the pack is " + state->texts["pack"] + " there, " + pack_hash + " here");
+    if (!difference.empty())
+        fail("'" + path + "' is of another training: " + difference + advice);
+    return std::move(*state);
+}
+
+} // namespace srisp

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "checkpoint.h"
+#include "recipe.h"
+
+namespace srisp {
+
+/// The folder of a training: made where it is missing, and no other process trains into it meanwhile.
+class OutputFolder {
+public:
+    /// Fails where it cannot be made, or is in use.
+    explicit OutputFolder(const std::string& path);
+    ~OutputFolder();
+    OutputFolder(const OutputFolder&) = delete;
+    OutputFolder& operator=(const OutputFolder&) = delete;
+
+    std::string file(const std::string& name) const { return m_path + "/" + name; }
+    /// Removes what an earlier training left.
+    void clear();
+
+private:
+    std::string m_path;
+    int m_lock;
+};
+
+/// What checkpoints keep of a training's origin.
+std::map<std::string, std::string> origin_of(const train::Recipe& recipe, const std::string& pack_hash);
+
+/// The checkpoint to go on from: none where the folder has none. Fails where it belongs to another recipe or pack, and
+/// says in what they differ.
+std::optional<train::TrainingState> find_checkpoint(const std::string& folder, const train::Recipe& recipe,
+                                                    const std::string& pack_hash);
+
+} // namespace srisp

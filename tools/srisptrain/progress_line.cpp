@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "progress_line.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "../common/progress_meter.h"
+
+namespace srisp {
+
+using train::Progress;
+
+static std::string number_text(const char* format, double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+std::string progress_text(const Progress& progress)
+{
+    std::string text = std::to_string(progress.step) + "/" + std::to_string(progress.steps) + ", " +
+                       number_text(progress.steps_per_second < 10 ? "%.2f/s" : "%.0f/s", progress.steps_per_second) +
+                       ", loss " + number_text("%.4f", progress.report.loss);
+    std::string terms;
+    for (const auto& [name, value] : progress.report.terms)
+        terms += (terms.empty() ? " (" : ", ") + name + " " + number_text("%.4f", value);
+    text += terms.empty() ? "" : terms + ")";
+    if (progress.last_validation)
+        text += ", " + number_text("%.2f dB, ", progress.last_validation->psnr) +
+                number_text("%.2f°", progress.last_validation->angle);
+    return text + ", " + duration_text(progress.seconds_left) + " left";
+}
+
+ProgressLine::ProgressLine(bool quiet) : m_quiet(quiet), m_terminal(isatty(STDERR_FILENO) == 1) {}
+
+void ProgressLine::show(const Progress& progress)
+{
+    const auto now = Clock::now();
+    const auto pause = m_terminal ? std::chrono::milliseconds(200) : std::chrono::milliseconds(30'000);
+    if (m_quiet || now - m_last < pause)
+        return;
+    m_last = now;
+    m_shown = m_terminal;
+    std::fprintf(stderr, "%s%s%s", m_terminal ? "\r\033[K" : "", progress_text(progress).c_str(),
+                 m_terminal ? "" : "\n");
+    std::fflush(stderr);
+}
+
+void ProgressLine::note(const std::string& line)
+{
+    wipe();
+    std::fprintf(stderr, "srisptrain: %s\n", line.c_str());
+}
+
+void ProgressLine::wipe()
+{
+    if (m_shown)
+        std::fputs("\r\033[K", stderr);
+    m_shown = false;
+}
+
+} // namespace srisp

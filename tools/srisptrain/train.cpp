@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "train.h"
+
+#include <cstdio>
+
+#include "../common/failure.h"
+#include "../common/interrupt.h"
+#include "host.h"
+#include "output_file.h"
+#include "output_folder.h"
+
+namespace srisp {
+
+using namespace train;
+
+namespace {
+
+void write_or_fail(const std::string& path, const std::string& text)
+{
+    if (const Status status = write_output_file(path, text); !status)
+        fail(status.error().message);
+}
+
+void say_anchor(Host& host, const AnchorFit& fit)
+{
+    char text[160];
+    std::snprintf(text, sizeof text, "anchor fitted: error of the log mean %.3f on training pairs (gain match %.3f)",
+                  fit.deviation, fit.gain_match_deviation);
+    host.note(text);
+}
+
+/// Rank 0: where the training starts.
+void start(Session& session, TrainingRun& run, OutputFolder& folder, Host& host, bool restart)
+{
+    const Recipe& recipe = session.settings();
+    if (restart)
+        folder.clear();
+    if (const auto state = find_checkpoint(recipe.output, recipe, session.pack->hash())) {
+        if (const Status status = run.resume(*state); !status)
+            fail("'" + folder.file(kCheckpointFile) + "' " + status.error().message);
+        host.note("going on from step " + std::to_string(static_cast<std::int64_t>(state->numbers.at("step"))));
+    } else {
+        folder.clear(); // of a log without a checkpoint
+    }
+    write_or_fail(folder.file(kRecipeFile), recipe_text(recipe));
+}
+
+} // namespace
+
+int train_model(Session& session, const Options& options)
+{
+    const Recipe& recipe = session.settings();
+    Host host(session, options.quiet);
+    std::optional<OutputFolder> folder;
+    const bool writes = session.group->writes();
+    if (writes) {
+        folder.emplace(recipe.output);
+        if (!session.tests)
+            host.note("no validation: " + session.tests_missing + "; the last model is kept");
+        if (options.restart || !find_checkpoint(recipe.output, recipe, session.pack->hash()))
+            if (const auto fit = start_model(session))
+                say_anchor(host, *fit);
+    }
+    Trainer trainer(
+        recipe.trainer, session.model, [&session] { return session.another(); }, session.samples, *session.group,
+        session.device);
+    TrainingRun run(trainer, *session.group, recipe.run, recipe.trainer.steps, origin_of(recipe, session.pack->hash()),
+                    recipe.output, host);
+    if (writes)
+        start(session, run, *folder, host, options.restart);
+    watch_interrupts();
+    const Expected<RunEnd> end = run.go([] { return pending_interrupt() != 0; });
+    if (!end)
+        fail(end.error().message);
+    if (*end == RunEnd::diverged)
+        return kExitFailed;
+    if (*end == RunEnd::stopped) {
+        if (writes)
+            host.note("stopped after step " + std::to_string(trainer.steps_done()) +
+                      "; the same command goes on from there");
+        return pending_interrupt() ? 128 + pending_interrupt() : kExitFailed;
+    }
+    return 0;
+}
+
+int test_only(Session& session, const Options& options)
+{
+    const Recipe& recipe = session.settings();
+    Host host(session, options.quiet);
+    if (!session.tests)
+        fail("'" + recipe.model.method +
+             "' has nothing to learn, and the pack nothing to test it on: " + session.tests_missing);
+    OutputFolder folder(recipe.output);
+    folder.clear();
+    host.note("'" + recipe.model.method + "' has nothing to learn: it is only tested");
+    const std::optional<Validation> result = host.validate(*session.model);
+    write_or_fail(folder.file(kRecipeFile), recipe_text(recipe));
+    RunLog log(recipe.output);
+    if (const Status status = log.add({ { "step", 0 },
+                                        { "score", result->score },
+                                        { "psnr", result->psnr },
+                                        { "angle", result->angle },
+                                        { "validation", result->details } });
+        !status)
+        fail(status.error().message);
+    if (const Status status = host.save_model(*session.model, folder.file(kBestFile), result, 0); !status)
+        fail(status.error().message);
+    std::printf("%.2f dB, %.2f°\n", result->psnr, result->angle);
+    return 0;
+}
+
+} // namespace srisp
