@@ -8,8 +8,9 @@
 #include <fstream>
 #include <stdexcept>
 
-#include <Imath/half.h>
 #include <nlohmann/json.hpp>
+
+#include "half_float.h"
 
 using srisp::Tensor;
 
@@ -24,7 +25,7 @@ void append(std::string& bytes, float value, const std::string& type)
     else if (type == "BF16")
         bytes.append(raw + 2, 2); // truncated: exact enough for a test model
     else {
-        const std::uint16_t bits = Imath::half(value).bits();
+        const std::uint16_t bits = srisp::half_from_float(value);
         bytes.append(reinterpret_cast<const char*>(&bits), 2);
     }
 }
