@@ -55,9 +55,9 @@ class Trainer {
 public:
     using Factory = std::function<std::shared_ptr<Unprocessor>()>;
 
-    /// `make` gives a fresh model, each time with the same parameters and on `device`.
-    Trainer(const TrainerSettings& settings, const Factory& make, std::shared_ptr<Samples> samples, ProcessGroup& group,
-            torch::Device device);
+    /// `model` is what learns; `make` gives others of its kind, whose parameters do not matter. All are on `device`.
+    Trainer(const TrainerSettings& settings, std::shared_ptr<Unprocessor> model, const Factory& make,
+            std::shared_ptr<Samples> samples, ProcessGroup& group, torch::Device device);
 
     /// `stop`: this process was asked to stop; all processes learn of it in the same step.
     StepReport step(bool stop = false);
