@@ -57,7 +57,8 @@ Expected<const float*> PhotoFile::read(int y0, int y1)
     const std::size_t pixels = std::size_t(m_width) * (y1 - y0);
     m_stored.resize(pixels * m_channels);
     m_rgb.resize(pixels * 3);
-    if (!read_image_rows(*m_input, 0, 0, y0, y1, m_stored.data())) {
+    // Truncated JPEGs are read to the end, grey from where they break off; the reader's warning is all that tells.
+    if (!read_image_rows(*m_input, 0, 0, y0, y1, m_stored.data()) || m_input->has_error()) {
         const std::string reason = m_input->geterror();
         return Error{ m_where + ": damaged or truncated at row " + std::to_string(y0) +
                       (reason.empty() ? "" : ": " + reason) };
