@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "batched_reverse.h"
+#include "gain_match.h"
 #include "half_split.h"
 #include "interleaved_images.h"
-#include "network.h"
 #include "test_renderings.h"
 #include "test_scenes.h"
 #include "unpaired_evaluation.h"
@@ -58,7 +58,7 @@ TestCrops half_split(const TestScenes& scenes, const torch::Tensor& photos, cons
     }
     measure(crops, batched_reverse(gain_match, crops.source, crops.reference, thumbnail_px), &ScoreGroup::gain_match,
             crops.by_camera);
-    measure(crops, batched_reverse(gain_match, crops.source, crops.truth, thumbnail_px), &ScoreGroup::gain_match_oracle,
+    measure(crops, batched_reverse(gain_match, crops.source, crops.truth, 0), &ScoreGroup::gain_match_oracle,
             crops.by_camera);
     return crops;
 }
@@ -87,9 +87,7 @@ struct EvaluationSet::State {
 Expected<std::shared_ptr<const EvaluationSet>> EvaluationSet::make(const EvaluationSettings& settings,
                                                                    const TrainingPack& pack)
 {
-    ModelSettings gain_match_settings;
-    gain_match_settings.method = "gain_match";
-    const std::shared_ptr<Unprocessor> gain_match = make_unprocessor(gain_match_settings, 0);
+    GainMatch gain_match;
     auto state = std::make_unique<State>();
     state->settings = settings;
     const std::vector<TestScenes> sets{ real_test_scenes(settings, pack.raws()),
@@ -99,13 +97,13 @@ Expected<std::shared_ptr<const EvaluationSet>> EvaluationSet::make(const Evaluat
         if (scenes.camera.empty())
             continue;
         state->crops.push_back(half_split(scenes, random_rendering(scenes, matrices, settings.seed), "random",
-                                          *gain_match, settings.thumbnail_px));
+                                          gain_match, settings.thumbnail_px));
         state->crops.push_back(
-            half_split(scenes, fixed_rendering(scenes, matrices), "fixed", *gain_match, settings.thumbnail_px));
+            half_split(scenes, fixed_rendering(scenes, matrices), "fixed", gain_match, settings.thumbnail_px));
     }
     if (state->crops.empty())
         return Error{ "evaluation: the pack has neither real RAW images nor photos and cameras marked for validation" };
-    state->unpaired = make_unpaired_images(settings, pack.photos(), sets, matrices, *gain_match);
+    state->unpaired = make_unpaired_images(settings, pack.photos(), sets, matrices, gain_match);
     return std::shared_ptr<const EvaluationSet>(new EvaluationSet(std::move(state)));
 }
 
@@ -121,14 +119,13 @@ int EvaluationSet::crops() const
     return static_cast<int>(count);
 }
 
-Scores evaluate(Unprocessor& method, const EvaluationSet& set, const std::function<void(double)>& progress)
+Scores evaluate(Unprocessor& method, const EvaluationSet& set, const std::function<void(int)>& progress)
 {
     const bool was_training = method.is_training();
     method.eval();
     Scores scores;
     std::vector<ScoreGroup> cameras;
-    double done = 0;
-    const double work = set.m_state->crops.size() + (set.m_state->unpaired ? 1 : 0);
+    int done = 0;
     for (const TestCrops& crops : set.m_state->crops) {
         std::vector<ScoreGroup> groups = crops.by_camera;
         const auto result = batched_reverse(method, crops.source, crops.reference, set.m_state->settings.thumbnail_px);
@@ -138,7 +135,7 @@ Scores evaluate(Unprocessor& method, const EvaluationSet& set, const std::functi
         scores.groups.push_back(total(groups));
         cameras.insert(cameras.end(), groups.begin(), groups.end());
         if (progress)
-            progress(++done / work);
+            progress(done += static_cast<int>(crops.camera.size()));
     }
     scores.groups.insert(scores.groups.end(), cameras.begin(), cameras.end());
     if (set.m_state->unpaired)

@@ -59,7 +59,7 @@ public:
     int crops() const; ///< in all sets and renderings
 
 private:
-    friend Scores evaluate(Unprocessor& method, const EvaluationSet& set, const std::function<void(double)>& progress);
+    friend Scores evaluate(Unprocessor& method, const EvaluationSet& set, const std::function<void(int)>& progress);
     struct State;
     explicit EvaluationSet(std::unique_ptr<const State> state);
     std::unique_ptr<const State> m_state;
@@ -67,6 +67,6 @@ private:
 
 /// Runs a method on all test images, without gradients, on the device where its parameters are. `progress` gets the
 /// part that is done, 0 … 1, now and then.
-Scores evaluate(Unprocessor& method, const EvaluationSet& set, const std::function<void(double)>& progress = {});
+Scores evaluate(Unprocessor& method, const EvaluationSet& set, const std::function<void(int)>& progress = {});
 
 } // namespace srisp::train

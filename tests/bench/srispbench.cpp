@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures apply and select against the multiply-add peak of this machine, all in one run.
-#include <chrono>
 #include <cstdio>
-#include <fstream>
-#include <functional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +11,7 @@
 #include <srisp/select.h>
 
 #include "fma_peak.h"
+#include "measuring.h"
 
 using namespace srisp;
 
@@ -34,23 +32,6 @@ template<class T> T require(Expected<T> result)
         return *result;
     std::fprintf(stderr, "srispbench: %s\n", result.error().message.c_str());
     std::exit(1);
-}
-
-double seconds(const std::function<void()>& work)
-{
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// A field of /proc/self/status, in MB.
-double memory_mb(const std::string& field)
-{
-    std::ifstream status("/proc/self/status");
-    for (std::string line; std::getline(status, line);)
-        if (line.rfind(field, 0) == 0)
-            return std::stod(line.substr(field.size() + 1)) / 1024;
-    return 0;
 }
 
 /// Smooth in places and busy in others, like a photo.
