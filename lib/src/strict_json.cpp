@@ -15,7 +15,7 @@ static std::string place(const std::string& text, std::size_t byte)
     const std::string before = text.substr(0, std::min(byte, text.size()));
     const std::size_t line_start = before.rfind('\n') + 1; // npos + 1 is 0
     return "line " + std::to_string(std::count(before.begin(), before.end(), '\n') + 1) + ", column " +
-           std::to_string(std::max<std::size_t>(1, before.size() - line_start));
+           std::to_string(std::max<std::size_t>(1, byte - line_start));
 }
 
 Expected<json> parse_json_object(const std::string& text, const std::string& where, const std::string& part)

@@ -116,7 +116,7 @@ TEST_CASE("folders of cameras that lack something are refused by name")
         const std::string full = message();
         return full.substr(full.find("a.json'") + 7);
     };
-    CHECK(camera_message("{") == ": file is not a JSON object (line 1, column 1)");
+    CHECK(camera_message("{") == ": file is not a JSON object (line 1, column 2)");
     CHECK(camera_message("{}") == " has no spectral_data with index and data");
     CHECK(camera_message(spectral_json(R"("R","G")", "1,2")) == " has no column 'B'; did you mean 'G' or 'R'?");
     CHECK(camera_message(spectral_json(R"("R","G","B")", "1,2")) == ", 380.000000 nm: has 2 numbers, needs 3");
