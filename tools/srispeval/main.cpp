@@ -140,7 +140,7 @@ int main(int argc, char** argv)
     app.add_option("--baseline", options.baselines, "methods that need no model: gain_match, upi")
         ->delimiter(',')
         ->check(CLI::IsMember({ "gain_match", "upi" }));
-    app.add_option("--set", options.assignments, "key=value, see below; may be repeated")->expected(1);
+    app.add_option("--set", options.assignments, "key=value, see below; may be repeated")->allow_extra_args(false);
     app.add_flag("--by-camera", options.by_camera, "lines for each camera, too");
     app.add_flag("--json", options.json, "print JSON on stdout");
     app.add_option("--threads", options.threads, "0: as many as there are processors")->check(CLI::Range(0, 1024));
