@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dictionary_augmentation.h"
+
 namespace srisp::train {
 
 namespace {
@@ -61,10 +63,10 @@ struct Trainer::Pass {
 };
 
 Trainer::Trainer(const TrainerSettings& settings, std::shared_ptr<Unprocessor> model, const Factory& make,
-                 std::shared_ptr<Samples> samples, ProcessGroup& group, torch::Device device)
-    : m_settings(settings), m_group(group), m_device(device),
-      m_samples(std::move(samples), slice_of(settings, group), device.is_cuda()), m_student(std::move(model)),
-      m_parameters(*m_student), m_teacher(make(), m_parameters.values()), m_averaged(make(), m_parameters.values()),
+                 std::shared_ptr<Samples> samples, ProcessGroup& group, torch::Device device, std::uint64_t seed)
+    : m_settings(settings), m_group(group), m_device(device), m_seed(seed), m_slice(slice_of(settings, group)),
+      m_samples(std::move(samples), m_slice, device.is_cuda()), m_student(std::move(model)), m_parameters(*m_student),
+      m_teacher(make(), m_parameters.values()), m_averaged(make(), m_parameters.values()),
       m_adam(settings.optimizer, m_parameters, m_parameters.mask_of(m_student->dictionary_parameters()),
              decayed_elements(*m_student, m_parameters))
 {
@@ -78,6 +80,10 @@ Batch Trainer::next_batch()
          { &batch.source, &batch.truth, &batch.reference, &batch.unpaired_source, &batch.unpaired_reference })
         if (images->defined())
             *images = images->to(m_device);
+    if (m_settings.dictionary_augmentation > 0)
+        batch.source =
+            augment_by_dictionaries(m_teacher.model(), batch.source, batch.truth, batch.reference,
+                                    m_settings.dictionary_augmentation, m_seed, m_steps_done, m_slice.first_pair);
     return batch;
 }
 

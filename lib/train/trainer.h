@@ -23,6 +23,7 @@ struct TrainerSettings {
     int steps = 2400;
     int pairs = 24, unpaired = 12;
     double average_decay = 0.995;
+    double dictionary_augmentation = 0;
     LossSettings loss;
     MeanTeacherSettings mean_teacher;
     OptimizerSettings optimizer;
@@ -34,6 +35,8 @@ struct TrainerSettings {
         v.integer("unpaired", unpaired, 0, 100'000, "photos without truth per step, likewise");
         v.number("average_decay", average_decay, 0, 0.999999,
                  "of the moving average of the weights, per step: the model that is tested and saved");
+        v.number("dictionary_augmentation", dictionary_augmentation, 0, 1,
+                 "share of pseudo pairs whose photo the model renders itself, by random mixes of its atoms");
         v.group("loss", loss);
         v.group("mean_teacher", mean_teacher);
         v.group("optimizer", optimizer);
@@ -57,7 +60,7 @@ public:
 
     /// `model` is what learns; `make` gives others of its kind, whose parameters do not matter. All are on `device`.
     Trainer(const TrainerSettings& settings, std::shared_ptr<Unprocessor> model, const Factory& make,
-            std::shared_ptr<Samples> samples, ProcessGroup& group, torch::Device device);
+            std::shared_ptr<Samples> samples, ProcessGroup& group, torch::Device device, std::uint64_t seed = 0);
 
     /// `stop`: this process was asked to stop; all processes learn of it in the same step.
     StepReport step(bool stop = false);
@@ -89,6 +92,8 @@ private:
     TrainerSettings m_settings;
     ProcessGroup& m_group;
     torch::Device m_device;
+    std::uint64_t m_seed;
+    SampleSlice m_slice;
     SampleQueue m_samples;
     std::shared_ptr<Unprocessor> m_student;
     ParameterVector m_parameters;

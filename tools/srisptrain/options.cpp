@@ -35,7 +35,8 @@ void describe_options(CLI::App& app, Options& options)
     app.add_option("-o,--output", options.output, "folder; default: the recipe's, or named after it");
     app.add_option("--init", options.init, "start from this model: a name or a path");
     app.add_option("--steps", options.steps, "the same as --set steps=N")->check(CLI::Range(1, 100'000'000));
-    app.add_option("--set", options.assignments, "key=value, changes a setting; may be repeated")->expected(1);
+    app.add_option("--set", options.assignments, "key=value, changes a setting; may be repeated")
+        ->allow_extra_args(false);
     app.add_flag("--restart", options.restart, "start again, though there is a checkpoint");
     app.add_flag("--dry-run", options.dry_run, "say what would be done, and estimate time and memory from a few steps");
     app.add_flag("--list-settings", options.list_settings, "print the recipe's settings, or the defaults, and end");

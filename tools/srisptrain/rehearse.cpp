@@ -81,7 +81,7 @@ int rehearse(Session& session, const Options& options)
     Host host(session, true);
     Trainer trainer(
         settings, session.model, [&session] { return session.another(); }, session.samples, *session.group,
-        session.device);
+        session.device, static_cast<std::uint64_t>(recipe.seed));
     double data = 0, learning = 0;
     for (int i = 0; i < kWarmUp; ++i)
         trainer.step();

@@ -72,9 +72,9 @@ void start_from(Unprocessor& model, const ModelSettings& settings, const std::st
 
 std::shared_ptr<Unprocessor> Session::another() const
 {
-    const auto model = make_unprocessor(settings().model, static_cast<std::uint64_t>(settings().seed));
-    model->to(device);
-    return model;
+    auto other = make_unprocessor(settings().model, static_cast<std::uint64_t>(settings().seed));
+    other->to(device);
+    return other;
 }
 
 LoadedRecipe recipe_of(const Options& options)

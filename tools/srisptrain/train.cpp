@@ -63,7 +63,7 @@ int train_model(Session& session, const Options& options)
     }
     Trainer trainer(
         recipe.trainer, session.model, [&session] { return session.another(); }, session.samples, *session.group,
-        session.device);
+        session.device, static_cast<std::uint64_t>(recipe.seed));
     TrainingRun run(trainer, *session.group, recipe.run, recipe.trainer.steps, origin_of(recipe, session.pack->hash()),
                     recipe.output, host);
     if (writes)
