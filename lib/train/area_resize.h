@@ -13,7 +13,7 @@ struct Window {
 };
 
 /// Squashes images [N, C, H, W] to `height` × `width`: each output pixel is the mean of the input area that it covers,
-/// fractions of pixels counted; enlarging too. Two matrix products; same device and type.
+/// fractions of pixels counted; enlarging too. Same device and type.
 torch::Tensor area_resize(const torch::Tensor& images, int height, int width);
 
 /// The same of a part of each image; one window per image.

@@ -3,6 +3,9 @@
 
 #include <cmath>
 
+#include "enlarge.h"
+#include "tone_math.h"
+
 namespace srisp::train {
 
 namespace {
@@ -18,6 +21,14 @@ torch::Tensor expand_highlights(const torch::Tensor& linear, const torch::Tensor
 {
     const auto brightest = linear.amax(1, true);
     return linear / (1 - (1 - 1 / white) * brightest * brightest);
+}
+
+/// Takes a part of the differences between the sixteen parts of each image out of its brightness.
+torch::Tensor flatten(const torch::Tensor& linear, const torch::Tensor& strength)
+{
+    const auto brightness = torch::adaptive_avg_pool2d(luminance(linear).clamp_min(1e-4).log(), { 4, 4 });
+    const auto difference = brightness - brightness.mean({ 2, 3 }, true);
+    return linear * (-strength * enlarge(difference, linear.size(2), linear.size(3))).exp();
 }
 
 /// Gives ln luminance a random distribution: (e^(skew z) − 1) / skew, Tukey's g distribution, over the normal quantile
@@ -71,17 +82,20 @@ torch::Tensor undo_rendering(const PhotoInverseSettings& settings, const torch::
     const auto strength = with(settings.histogram, settings.lowest_strength, settings.highest_strength, 0);
     const auto spread = with(1, settings.lowest_spread, settings.highest_spread, 0);
     const auto skew = with(1, settings.lowest_skew, settings.highest_skew, 0);
+    const auto flattening = with(settings.flattening, settings.lowest_flattening, settings.highest_flattening, 0);
     const auto saturation = with(1, settings.lowest_saturation, settings.highest_saturation, 0);
 
     auto v = photos;
     if (settings.s_curve > 0)
         v = torch::lerp(v, inverse_smoothstep(v), s_curve);
-    v = v.pow(gamma);
+    v = power(v, gamma);
     if (settings.expansion > 0)
         v = expand_highlights(v, white.exp());
+    if (settings.flattening > 0)
+        v = flatten(v, flattening);
     if (settings.histogram > 0)
         v = reshape_histogram(v, spread, skew, strength);
-    return torch::lerp(luminance(v), v, saturation).clamp_min(0);
+    return torch::lerp(luminance(v), v, saturation).clamp_min_(0);
 }
 
 } // namespace srisp::train

@@ -13,6 +13,7 @@ struct PhotoInverseSettings {
     double expansion = 0, lowest_white = 1, highest_white = 8;
     double histogram = 0, lowest_spread = 0.8, highest_spread = 1.7, lowest_skew = -0.4, highest_skew = 0.4;
     double lowest_strength = 0.3, highest_strength = 1;
+    double flattening = 0, lowest_flattening = 0, highest_flattening = 0.7;
     double lowest_saturation = 0.7, highest_saturation = 1.5;
 
     template<class Visitor> void describe(Visitor& v)
@@ -26,6 +27,9 @@ struct PhotoInverseSettings {
         v.range("spread", lowest_spread, highest_spread, 0.05, 4, "that histogram's deviation of ln luminance");
         v.range("skew", lowest_skew, highest_skew, -1, 1, "bends it: over 0 has a longer tail to the highlights");
         v.range("histogram_strength", lowest_strength, highest_strength, 0, 1, "how far towards that histogram");
+        v.number("flattening", flattening, 0, 1, "share of photos whose large parts differ less in brightness");
+        v.range("flattening_strength", lowest_flattening, highest_flattening, 0, 1,
+                "how much of that difference is taken away; 1 all");
         v.range("saturation", lowest_saturation, highest_saturation, 0, 4, "factor on linear chroma");
     }
 };

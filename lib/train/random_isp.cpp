@@ -6,6 +6,8 @@
 
 #include "area_resize.h"
 #include "color_transform.h"
+#include "enlarge.h"
+#include "tone_math.h"
 
 namespace srisp::train {
 
@@ -33,8 +35,8 @@ torch::Tensor grey_world(const torch::Tensor& raw)
     constexpr double kSmall = 1e-4; // keeps gains near 1 where there is no light
     const auto pixels = raw.flatten(2);
     const auto luma = 0.299 * pixels.select(1, 0) + 0.587 * pixels.select(1, 1) + 0.114 * pixels.select(1, 2);
-    const auto low = row_quantile(luma, 0.05).unsqueeze(1), high = row_quantile(luma, 0.95).unsqueeze(1);
-    const auto kept = ((luma >= low) & (luma <= high)).to(raw.dtype()).unsqueeze(1);
+    const auto ends = row_quantiles(luma, { 0.05, 0.95 });
+    const auto kept = ((luma >= ends[0].unsqueeze(1)) & (luma <= ends[1].unsqueeze(1))).to(raw.dtype()).unsqueeze(1);
     const auto means = (pixels * kept).sum(2) / kept.sum(2) + kSmall;
     return (means.slice(1, 1, 2) / means).unsqueeze(2).unsqueeze(3);
 }
@@ -44,7 +46,7 @@ torch::Tensor balance_gains(const RandomIspSettings& settings, const torch::Tens
                             const torch::Tensor& white_balance, const Randoms& randoms)
 {
     const auto count = raw.size(0);
-    auto errors = torch::ones({ count, 3 }), is_true = torch::zeros({ count, 1, 1, 1 }, torch::kBool);
+    const auto errors = torch::ones({ count, 3 }), is_true = torch::zeros({ count, 1, 1, 1 }, torch::kBool);
     auto forks = fork(randoms, kBalance);
     for (std::int64_t n = 0; n < count; ++n) {
         is_true[n][0][0][0] = forks[n].chance(settings.true_white_balance);
@@ -114,12 +116,7 @@ torch::Tensor add_local_contrast(const torch::Tensor& v, const torch::Tensor& st
 {
     const auto luma = (0.299 * v.select(1, 0) + 0.587 * v.select(1, 1) + 0.114 * v.select(1, 2)).unsqueeze(1);
     const auto coarse = area_resize(luma, 8, 8);
-    namespace F = torch::nn::functional;
-    const auto around = F::interpolate(coarse, F::InterpolateFuncOptions()
-                                                   .size(std::vector<std::int64_t>{ v.size(2), v.size(3) })
-                                                   .mode(torch::kBicubic)
-                                                   .align_corners(false));
-    return v + strength * (luma - around);
+    return v + strength * (luma - enlarge(coarse, v.size(2), v.size(3)));
 }
 
 torch::Tensor eight_bit(const torch::Tensor& v)
@@ -150,17 +147,17 @@ torch::Tensor encode(const RandomIspSettings& settings, torch::Tensor v, const R
         v = torch::lerp(v.mean(1, true), v, saturation);
     }
     const auto gamma = draw(randoms, kGamma, device, 1, settings.lowest_gamma, settings.highest_gamma, 1);
-    v = v.clamp(0, 1).pow(1 / gamma);
+    v = power(v.clamp(0, 1), 1 / gamma);
     const double share =
         settings.smoothstep == "always" ? 1 : (settings.smoothstep == "random" ? settings.smoothstep_share : 0);
     const auto curved = draw(randoms, kSmoothstep, device, share, 1, 1, 0);
-    v = torch::lerp(v, v * v * (3 - 2 * v), curved);
+    v = smoothstep(v, curved);
     if (settings.local_contrast > 0)
         v = add_local_contrast(v, draw(randoms, kContrast, device, settings.local_contrast, settings.lowest_contrast,
                                        settings.highest_contrast, 0));
     if (settings.channel_curves > 0)
         v = bend_channels(settings, v.clamp(0, 1), randoms);
-    return eight_bit(v.clamp(0, 1));
+    return eight_bit(v.clamp_(0, 1));
 }
 
 } // namespace
@@ -169,6 +166,8 @@ torch::Tensor render_random(const RandomIspSettings& settings, const torch::Tens
                             const torch::Tensor& white_balance, const torch::Tensor& matrices, Randoms& randoms)
 {
     auto v = raw * balance_gains(settings, raw, white_balance, randoms);
+    if (settings.neutral_highlights)
+        v.clamp_max_(1);
     v = v * exposure_gains(settings, v, randoms);
     if (settings.shoulder > 0) {
         // A start of 1 is clipping.
@@ -181,11 +180,11 @@ torch::Tensor render_random(const RandomIspSettings& settings, const torch::Tens
 }
 
 torch::Tensor render_fixed(const torch::Tensor& raw, const torch::Tensor& white_balance, const torch::Tensor& matrix,
-                           double target)
+                           const torch::Tensor& target)
 {
-    const auto balanced = raw * white_balance.to(raw.device()).unsqueeze(2).unsqueeze(3);
+    const auto balanced = (raw * white_balance.to(raw.device()).unsqueeze(2).unsqueeze(3)).clamp_max_(1);
     const auto bright = row_quantile(balanced.mean(1).flatten(1), 0.97).clamp_min(1e-6);
-    const auto gain = (target / bright).clamp(1.0 / 64, 64).view({ -1, 1, 1, 1 });
+    const auto gain = (target.to(raw.device()).flatten() / bright).clamp(1.0 / 64, 64).view({ -1, 1, 1, 1 });
     const auto linear = transform_colors(matrix, (balanced * gain).clamp(0, 1)).clamp(0, 1);
     // IEC 61966-2-1
     const auto encoded =

@@ -14,6 +14,7 @@ struct RandomIspSettings {
     double auto_exposure = 0.75, lowest_target = 0.5, highest_target = 1.2;
     double average_metering = 0, lowest_average = 0.08, highest_average = 0.3;
     double lowest_gain = 1, highest_gain = 2;
+    bool neutral_highlights = false;
     int mixed_matrices = 3;
     double linear_saturation = 0, lowest_saturation = 0.7, highest_saturation = 1.4;
     double shoulder = 0, lowest_shoulder = 0.4, highest_shoulder = 0.9;
@@ -32,6 +33,8 @@ struct RandomIspSettings {
         v.number("average_metering", average_metering, 0, 1, "share of auto exposures that place the mean instead");
         v.range("average", lowest_average, highest_average, 0.01, 1, "where these put the mean, linear");
         v.range("gain", lowest_gain, highest_gain, 0.1, 50, "random gain");
+        v.flag("neutral_highlights", neutral_highlights,
+               "clip after white balance, too: gains below 1 then leave clipped highlights grey, as cameras do");
         v.integer("mixed_matrices", mixed_matrices, 1, 10, "how many other cameras' matrices are mixed");
         v.number("saturated", linear_saturation, 0, 1, "share with another saturation, before the gamma");
         v.range("saturation", lowest_saturation, highest_saturation, 0, 4, "that saturation");
@@ -54,9 +57,9 @@ struct RandomIspSettings {
 torch::Tensor render_random(const RandomIspSettings& settings, const torch::Tensor& raw,
                             const torch::Tensor& white_balance, const torch::Tensor& matrices, Randoms& randoms);
 
-/// Renders for a fixed target: true white balance, the white-balanced channel mean's 97th percentile at `target`, the
-/// matrix [N, 3, 3], sRGB's curve, 8 bit. The gain is limited to [1/64, 64].
+/// Renders for a fixed target: true white balance, highlights clipped to grey, the channel mean's 97th percentile at
+/// `target` (N numbers or one), the matrix [N, 3, 3], sRGB's curve, 8 bit. The gain is limited to [1/64, 64].
 torch::Tensor render_fixed(const torch::Tensor& raw, const torch::Tensor& white_balance, const torch::Tensor& matrix,
-                           double target = 0.9);
+                           const torch::Tensor& target);
 
 } // namespace srisp::train

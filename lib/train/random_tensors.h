@@ -29,7 +29,8 @@ template<class Draw> torch::Tensor per_image(Randoms& randoms, const torch::Devi
 /// cheaper than normal ones and end at ±3.46.
 torch::Tensor noise(Randoms& randoms, at::IntArrayRef sizes);
 
-/// The q-quantile of each row of [N, M]: the value at rank round(q (M − 1)), not interpolated; [N].
+/// Quantiles, ascending, of each row of [N, M]: the values at ranks round(q (M − 1)), not interpolated; [N] each.
+std::vector<torch::Tensor> row_quantiles(const torch::Tensor& rows, const std::vector<double>& quantiles);
 torch::Tensor row_quantile(const torch::Tensor& rows, double q);
 
 } // namespace srisp::train

@@ -20,6 +20,7 @@ enum Purpose {
     kExposure,
     kMatrices,
     kIsp,
+    kRendering,
     kPhoto
 };
 
@@ -189,10 +190,19 @@ SampleMaker::Exposures SampleMaker::expose_scenes(const Randoms& randoms, const 
 
 torch::Tensor SampleMaker::render(const Exposures& exposures, const Randoms& randoms) const
 {
-    if (m_settings.rendering == "fixed")
-        return render_fixed(exposures.raw, exposures.white_balance, exposures.color);
     auto isp_randoms = fork(randoms, kIsp);
-    return render_random(m_settings.isp, exposures.raw, exposures.white_balance, exposures.others, isp_randoms);
+    const auto random = [&] {
+        return render_random(m_settings.isp, exposures.raw, exposures.white_balance, exposures.others, isp_randoms);
+    };
+    if (m_settings.fixed_share == 0)
+        return random();
+    auto choices = fork(randoms, kRendering);
+    const auto chosen = per_image(choices, m_device, [&](Random& draw) { return draw.chance(m_settings.fixed_share); });
+    const auto target = per_image(choices, m_device, [&](Random& draw) {
+        return draw.uniform(m_settings.lowest_fixed_target, m_settings.highest_fixed_target);
+    });
+    const auto fixed = render_fixed(exposures.raw, exposures.white_balance, exposures.color, target);
+    return m_settings.fixed_share == 1 ? fixed : torch::where(chosen > 0, fixed, random());
 }
 
 SampleMaker::Scenes SampleMaker::scenes(std::int64_t step, int first, int count) const

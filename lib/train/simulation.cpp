@@ -146,7 +146,7 @@ torch::Tensor camera_scenes(const SimulationSettings& settings, const torch::Ten
     const auto deviation = per_image(level_randoms, device, [&](Random& random) {
         return random.uniform(settings.lowest_unevenness, settings.highest_unevenness);
     });
-    scenes = scenes * torch::exp(deviation * smooth_fields(field_randoms, height, width, device));
+    scenes.mul_(smooth_fields(field_randoms, height, width, device).mul_(deviation).exp_());
     auto flare_randoms = fork(randoms, kFlare);
     const auto flare = per_image(flare_randoms, device, [&](Random& random) {
         return random.uniform(settings.lowest_flare, settings.highest_flare);
@@ -154,7 +154,7 @@ torch::Tensor camera_scenes(const SimulationSettings& settings, const torch::Ten
     if (settings.highest_flare > 0)
         scenes = scenes * (1 - flare) + flare * scenes.mean({ 2, 3 }, true);
     // Colours outside the camera's gamut would be negative light.
-    return scenes.clamp_min(0);
+    return scenes.clamp_min_(0);
 }
 
 torch::Tensor exposure_factors(const SimulationSettings& settings, const torch::Tensor& scenes,
@@ -174,11 +174,11 @@ torch::Tensor expose(const torch::Tensor& scenes, const torch::Tensor& factors, 
     const auto read = each(captures, device, [](const Capture& capture) { return capture.read; });
     const auto black_error = each(captures, device, [](const Capture& capture) { return capture.black_error; });
     auto noise_randoms = fork(randoms, kNoise);
-    const auto grain = noise(noise_randoms, scenes.sizes().slice(1)).to(device);
     const auto clean = scenes * factors;
-    // Above the clipping point noise would not be seen, but its square root would overflow for endless light.
-    const auto deviation = (clean.clamp_max(2) * shot + read).sqrt();
-    return (clean + grain * deviation + black_error).clamp(0, 1);
+    // Above the clipping point noise would not be seen, but its variance would overflow for endless light.
+    const auto deviation = clean.clamp_max(2).mul_(shot).add_(read).sqrt_();
+    const auto grain = noise(noise_randoms, scenes.sizes().slice(1)).to(device).mul_(deviation);
+    return grain.add_(clean).add_(black_error).clamp_(0, 1);
 }
 
 torch::Tensor simulate(const SimulationSettings& settings, const torch::Tensor& photos,

@@ -62,7 +62,7 @@ torch::Tensor random_rendering(const TestScenes& scenes, const torch::Tensor& ma
 
 torch::Tensor fixed_rendering(const TestScenes& scenes, const torch::Tensor& matrices)
 {
-    return render_fixed(scenes.raw, scenes.white_balance, known_colors(scenes.color, matrices));
+    return render_fixed(scenes.raw, scenes.white_balance, known_colors(scenes.color, matrices), torch::tensor(0.9));
 }
 
 torch::Tensor known_colors(const torch::Tensor& colors, const torch::Tensor& matrices)

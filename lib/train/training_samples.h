@@ -20,7 +20,7 @@ struct DataSettings {
     double whole_share = 0.5;
     double raw_share = 0;
     double lowest_raw_exposure = 0.3, highest_raw_exposure = 3;
-    std::string rendering = "random";
+    double fixed_share = 0, lowest_fixed_target = 0.9, highest_fixed_target = 0.9;
     double other_scene = 0.25, half_split = 0.40, upright_split = 0.25;
     double smallest_crop = 0.4;
     double blurred = 0;
@@ -37,8 +37,11 @@ struct DataSettings {
         v.number("raw_share", raw_share, 0, 1, "share of scenes that are real RAW images of the pack, not simulated");
         v.range("raw_exposure", lowest_raw_exposure, highest_raw_exposure, 1e-3, 100,
                 "factor on real RAW, evenly in its log: stored ones have lost their exposure");
-        v.choice("rendering", rendering, { "random", "fixed" },
-                 "ISP_rand, or a fixed target with the camera's own matrix as a stand-in for real pairs");
+        v.number("fixed_share", fixed_share, 0, 1,
+                 "share of scenes rendered as cameras do, for a fixed target and with their own matrix; the rest: "
+                 "ISP_rand");
+        v.range("fixed_target", lowest_fixed_target, highest_fixed_target, 0.1, 2,
+                "where these put the 97th percentile of the white-balanced mean");
         v.number("other_scene", other_scene, 0, 1, "share of references from another scene, camera and light the same");
         v.number("half_split", half_split, 0, 1,
                  "share of references that are one half of the scene, the source a quarter of the other; the rest of "
