@@ -20,7 +20,7 @@ namespace srisp::train {
 struct EvaluationSettings {
     int real_images = 24;
     bool real_validation_only = true;
-    double exposure_low = 0.15, exposure_high = 1.5;
+    double exposure_low = 0.03, exposure_high = 1.25;
     int simulated_images = 96;
     int unpaired_photos = 0;
     int unpaired_references = 8;
