@@ -16,6 +16,8 @@ build=$(cd "$build" && pwd)
 
 # No display, no terminal, no user's settings; English messages.
 export LC_ALL=C.UTF-8
+# LibTorch's threads sleep while they wait: tests run side by side.
+export OMP_WAIT_POLICY=passive
 status=0
 ctest --test-dir "$build" --parallel "$jobs" --timeout 900 --output-on-failure "$@" </dev/null || status=$?
 
