@@ -11,12 +11,13 @@ namespace srisp::train {
 
 /// What one optimiser step learns from; images as in unprocessor.h.
 struct Batch {
-    torch::Tensor source, truth, reference;             ///< pseudo pairs PP_rand: [N, 3, S, S]
-    torch::Tensor unpaired_source, unpaired_reference;  ///< for PP_MT: [M, 3, S, S]; photos as they are, and RAW images
+    torch::Tensor source, truth, reference;            ///< pseudo pairs PP_rand: [N, 3, S, S]
+    torch::Tensor unpaired_source, unpaired_reference; ///< for PP_MT: [M, 3, S, S]; photos as they are, and RAW images
 };
 
-/// Makes batches from a training pack. A batch depends on the settings, the seed and the step alone: not on threads, not on
-/// the steps before, and sample i of a batch not on the batch's size; so runs resume exactly and ranks share one batch.
+/// Makes batches from a training pack. A batch depends on the settings, the seed and the step alone: not on threads,
+/// not on the steps before, and sample i of a batch not on the batch's size; so runs resume exactly and ranks share one
+/// batch.
 class Samples {
 public:
     virtual ~Samples() = default;

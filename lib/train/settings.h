@@ -32,7 +32,7 @@ public:
     virtual void range(const char* name, double& low, double& high, double low_limit, double high_limit,
                        const char* text) = 0;
 
-    template <class Settings> void group(const char* name, Settings& settings)
+    template<class Settings> void group(const char* name, Settings& settings)
     {
         enter(name);
         settings.describe(*this);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "area_resize.h"
 #include "evaluation.h"
 #include "packed_images.h"
 #include "simulation.h"
@@ -26,7 +27,7 @@ SimulationSettings test_simulation()
     simulation.light.daylight = 0.40;
     simulation.light.artificial = 0.15;
     simulation.lowest_unevenness = 0;
-    simulation.highest_unevenness = 0.4; // at 0.9 halves differ in brightness far more than those of real RAW do
+    simulation.highest_unevenness = 0;
     simulation.mixed_light = 0;
     simulation.exposure_of = "white";
     simulation.lowest_exposure = 0.06;
@@ -62,7 +63,10 @@ TestScenes simulated_test_scenes(const EvaluationSettings& settings, const Train
         if (known == scenes.cameras.end())
             scenes.cameras.push_back(name);
     }
-    scenes.raw = simulate(test_simulation(), torch::stack(images), captures, randoms);
+    // Crops as large as those of the real RAW images, where there are some.
+    const int raw_size = pack.raws().entries.empty() ? pack.photos().size : pack.raws().size;
+    const int size = std::min(pack.photos().size, raw_size);
+    scenes.raw = simulate(test_simulation(), area_resize(torch::stack(images), size, size), captures, randoms);
     scenes.white_balance = white_balances(captures);
     scenes.color = color_matrices(captures);
     return scenes;

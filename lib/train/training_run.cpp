@@ -60,7 +60,7 @@ Expected<RunEnd> TrainingRun::go(const std::function<bool()>& stop)
         if (diverges(step.loss))
             return end_badly("the loss explodes: smoothed " + std::to_string(m_smoothed_loss) + " at step " + number +
                              ", lowest " + std::to_string(m_lowest_loss));
-        take_time(step);
+        add_up(step);
         if (m_group.writes()) {
             report(step);
             checkpoint(When::at_interval);
@@ -79,11 +79,15 @@ bool TrainingRun::diverges(double loss)
     return m_smoothed_loss > m_settings.divergence * m_lowest_loss;
 }
 
-void TrainingRun::take_time(const StepReport& step)
+void TrainingRun::add_up(const StepReport& step)
 {
     m_data_seconds += step.data_seconds;
     m_learning_seconds += step.learning_seconds;
     m_step_seconds += step.data_seconds + step.learning_seconds + step.other_seconds;
+    m_sums["loss"] += step.loss;
+    m_sums["gradient_norm"] += step.gradient_norm;
+    for (const auto& [name, value] : step.terms)
+        m_sums[name] += value;
 }
 
 void TrainingRun::report(const StepReport& step)
@@ -103,18 +107,17 @@ void TrainingRun::report(const StepReport& step)
     m_host.progress(progress);
     if (done % m_settings.log_every != 0 && !m_trainer.finished())
         return;
+    const auto count = static_cast<double>(done - m_logged_step);
     nlohmann::ordered_json entry = { { "step", done },
                                      { "seconds", seconds() },
-                                     { "steps_per_second", static_cast<double>(done - m_logged_step) /
-                                                               std::max(seconds() - m_logged_seconds, 1e-9) },
-                                     { "loss", step.loss } };
-    for (const auto& [name, value] : step.terms)
-        entry[name] = value;
-    entry["gradient_norm"] = step.gradient_norm;
+                                     { "steps_per_second", count / std::max(seconds() - m_logged_seconds, 1e-9) } };
+    for (const auto& [name, sum] : m_sums)
+        entry[name] = sum / count;
     entry["rate_factor"] = m_trainer.rate_factor_of(done - 1);
     entry["data_share"] = progress.data_share;
     entry["learning_share"] = progress.learning_share;
     log(entry);
+    m_sums.clear();
     m_logged_step = done;
     m_logged_seconds = seconds();
 }

@@ -88,7 +88,7 @@ private:
     enum class When { at_interval, now };
 
     bool diverges(double loss);
-    void take_time(const StepReport& report);
+    void add_up(const StepReport& report);
     void report(const StepReport& step);
     void validate();
     void checkpoint(When when);
@@ -113,6 +113,7 @@ private:
     double m_data_seconds = 0, m_learning_seconds = 0, m_step_seconds = 0;
     double m_logged_seconds = 0;
     std::int64_t m_logged_step = 0;
+    std::map<std::string, double> m_sums; ///< of losses and gradient norms since the last line of the log
     bool m_log_failed = false;
     std::string m_checkpoint_error, m_best_error;
     std::optional<Validation> m_last_validation;

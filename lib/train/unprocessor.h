@@ -11,14 +11,14 @@ namespace srisp::train {
 
 /// The parameters that were chosen for a batch of N images. Undefined tensors where a method has no such block.
 struct Choice {
-    torch::Tensor gamma;         ///< [N]
-    torch::Tensor color;         ///< [N, 3, 3], C: camera RGB to linear sRGB, rows sum to 1
-    torch::Tensor white_balance; ///< [N, 3], (g_r, 1, g_b), anchor included
-    torch::Tensor gain;          ///< [N], anchor included
+    torch::Tensor gamma;                          ///< [N]
+    torch::Tensor color;                          ///< [N, 3, 3], C: camera RGB to linear sRGB, rows sum to 1
+    torch::Tensor white_balance;                  ///< [N, 3], (g_r, 1, g_b), anchor included
+    torch::Tensor gain;                           ///< [N], anchor included
     std::map<std::string, torch::Tensor> weights; ///< selection weights [N, K] by dictionary: "tone.0" … "gain"
     /// The mixed tone kernels of the four layers, [N, O, I, k, k] and [N, O].
     std::vector<torch::Tensor> tone_reverse_weight, tone_reverse_bias, tone_forward_weight, tone_forward_bias;
-    torch::Tensor base;          ///< [N, 3], the anchor's gains before the dictionaries
+    torch::Tensor base; ///< [N, 3], the anchor's gains before the dictionaries
 };
 
 /// A method that unprocesses: SRISP, one of its ablations, a baseline. Images are [N, 3, H, W] float32: a source

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// small_pack FOLDER: writes a training pack of smooth made-up images, large enough to train on for a few steps. It needs
-// no image library, so the trainer alone can be tested.
+// small_pack FOLDER: writes a training pack of smooth made-up images, large enough to train on for a few steps. It
+// needs no image library, so the trainer alone can be tested.
 #include <cmath>
 #include <cstdio>
 

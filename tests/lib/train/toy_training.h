@@ -46,9 +46,9 @@ public:
 /// Random images whose truth is the source times a gain from the reference; sample i of a step is always the same.
 class ToySamples : public srisp::train::Samples {
 public:
-    /// From step `broken_from` on, one pixel of the truth is `broken`.
-    explicit ToySamples(std::int64_t broken_from = -1, float broken = NAN)
-        : m_broken_from(broken_from), m_broken(broken)
+    /// From step `broken_from` on, one pixel of the truth is `broken`. `size`: width and height.
+    explicit ToySamples(std::int64_t broken_from = -1, float broken = NAN, int size = 8)
+        : m_broken_from(broken_from), m_broken(broken), m_size(size)
     {
     }
 
@@ -68,19 +68,20 @@ public:
     }
 
 private:
-    static torch::Tensor images(std::int64_t step, int first, int count, int kind)
+    torch::Tensor images(std::int64_t step, int first, int count, int kind) const
     {
         std::vector<torch::Tensor> list;
         for (int i = first; i < first + count; ++i) {
             torch::Generator generator =
                 torch::make_generator<torch::CPUGeneratorImpl>(static_cast<std::uint64_t>(step * 1000 + i * 10 + kind));
-            list.push_back(torch::rand({ 3, 8, 8 }, generator));
+            list.push_back(torch::rand({ 3, m_size, m_size }, generator));
         }
         return torch::stack(list);
     }
 
     std::int64_t m_broken_from;
     float m_broken;
+    int m_size;
 };
 
 inline srisp::train::TrainerSettings toy_settings(int steps = 12)
