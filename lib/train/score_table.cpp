@@ -20,24 +20,27 @@ __attribute__((format(printf, 1, 2))) std::string text(const char* format, ...)
     return buffer;
 }
 
-constexpr char kHeader[] =
-    "                           dB  over g.m.  covered  angle  ratio   ln mean error   highlights  at gain  skipped\n";
-
-/// A line of the table; `relation` is what stands in the columns "over g.m." and "covered", and `ratio` in its own.
-std::string line(const std::string& name, const Measure& m, const std::string& relation, const std::string& ratio)
+/// The columns, in the widths of `line`.
+std::string header()
 {
-    return text("%-22.22s %6.2f  %8.17s %6.2f  %5.5s  %+6.3f +- %.3f      %+.3f   %+.3f  %7lld\n", name.c_str(),
-                m.psnr(), relation.c_str(), m.angle.mean(), ratio.c_str(), m.log_error_mean(), m.log_error_deviation(),
+    return text("%-22s %6s  %9s  %8s  %6s  %5s  %16s  %10s  %8s  %7s\n", "", "dB", "over g.m.", "covered", "angle",
+                "ratio", "ln mean error", "highlights", "at gain", "skipped");
+}
+
+/// A line of the table; `relation` stands in the columns "over g.m." and "covered", and `ratio` in its own.
+std::string line(const std::string& name, const Measure& m, const std::string& relation = "",
+                 const std::string& ratio = "")
+{
+    return text("%-22.22s %6.2f  %19s  %6.2f  %5s  %+7.3f +- %.3f  %+10.3f  %+8.3f  %7lld\n", name.c_str(), m.psnr(),
+                relation.c_str(), m.angle.mean(), ratio.c_str(), m.log_error_mean(), m.log_error_deviation(),
                 m.highlights.mean(), m.highlights.mean_at_gain(), static_cast<long long>(m.angle.skipped));
 }
 
 std::string model_lines(const std::string& name, const ScoreGroup& group)
 {
-    const std::string nothing(17, ' ');
-    return line(name, group.model, text("%+8.2f  %6.0f %%", group.psnr_gain(), 100 * group.covered()),
+    return line(name, group.model, text("%+9.2f  %6.0f %%", group.psnr_gain(), 100 * group.covered()),
                 text("%.2f", group.angle_ratio())) +
-           line("  + true means", group.model_oracle, nothing, "") +
-           line("  + true gain", group.model_oracle_gain, nothing, "");
+           line("  + true means", group.model_oracle) + line("  + true gain", group.model_oracle_gain);
 }
 
 std::string group_title(const ScoreGroup& group)
@@ -50,9 +53,8 @@ std::string group_title(const ScoreGroup& group)
 std::string group_table(const NamedScores& scores, std::size_t index)
 {
     const ScoreGroup& first = scores.front().second.groups[index];
-    const std::string nothing(17, ' ');
-    std::string result = group_title(first) + kHeader + line("gain match", first.gain_match, nothing, "") +
-                         line("  + true means", first.gain_match_oracle, nothing, "");
+    std::string result = group_title(first) + header() + line("gain match", first.gain_match) +
+                         line("  + true means", first.gain_match_oracle);
     for (const auto& [name, of_model] : scores)
         result += model_lines(name, of_model.groups[index]);
     return result + "\n";
