@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include <torch/torch.h>
+#include "torch_api.h"
 
 namespace srisp::train {
 

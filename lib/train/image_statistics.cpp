@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <ATen/Parallel.h>
+
 #include "statistics.h"
 
 namespace srisp::train {

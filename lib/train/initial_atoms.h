@@ -3,7 +3,7 @@
 
 #include "model_settings.h"
 
-#include <torch/torch.h>
+#include "torch_api.h"
 
 namespace srisp::train {
 

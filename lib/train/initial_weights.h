@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <torch/torch.h>
+#include "torch_api.h"
 
 namespace srisp::train {
 

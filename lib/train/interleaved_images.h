@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "torch_api.h"
 #include <srisp/image.h>
-#include <torch/torch.h>
 
 namespace srisp::train {
 

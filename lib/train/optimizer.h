@@ -4,9 +4,8 @@
 #include <cstdint>
 #include <string>
 
-#include <torch/torch.h>
-
 #include "parameter_vector.h"
+#include "torch_api.h"
 
 namespace srisp::train {
 

@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include <torch/torch.h>
-
+#include "torch_api.h"
 #include "training_pack.h"
 
 namespace srisp::train {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "torch_api.h"
 #include <srisp/expected.h>
-#include <torch/torch.h>
 
 namespace srisp::train {
 

@@ -3,9 +3,8 @@
 
 #include <vector>
 
-#include <torch/torch.h>
-
 #include "random.h"
+#include "torch_api.h"
 
 namespace srisp::train {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include <torch/torch.h>
+#include "torch_api.h"
 
 namespace srisp::train {
 

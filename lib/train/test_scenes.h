@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <torch/torch.h>
-
+#include "torch_api.h"
 #include "training_pack.h"
 
 namespace srisp::train {

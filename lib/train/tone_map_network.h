@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include <torch/torch.h>
+#include "torch_api.h"
 
 namespace srisp::train {
 

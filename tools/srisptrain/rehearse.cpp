@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cstdio>
 
+#include <ATen/Parallel.h>
+
 #include "../common/progress_meter.h"
 #include "host.h"
 #include "output_folder.h"

@@ -3,6 +3,8 @@
 
 #include <cstdlib>
 
+#include <torch/cuda.h>
+
 #include "../common/failure.h"
 #include "model_file.h"
 #include "model_files.h"

@@ -2,6 +2,7 @@
 #include "optimizer.h"
 
 #include <doctest/doctest.h>
+#include <torch/torch.h>
 
 using namespace srisp::train;
 

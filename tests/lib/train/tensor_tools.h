@@ -4,10 +4,9 @@
 #include <string>
 #include <vector>
 
-#include <doctest/doctest.h>
-#include <torch/torch.h>
-
 #include "image_compare.h"
+#include "torch_api.h"
+#include <doctest/doctest.h>
 
 /// All elements in order, as float32.
 inline std::vector<float> values_of(const torch::Tensor& tensor)

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include <ATen/Parallel.h>
 #include <doctest/doctest.h>
 
 #include "sample_maker.h"
