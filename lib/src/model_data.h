@@ -45,6 +45,7 @@ struct ModelData {
 
     EncoderWeights source_encoder, reference_encoder;
     std::optional<Linear> source_statistics, reference_statistics, anchor;
+    std::vector<Linear> anchor_network; ///< empty in srisp-1
     Linear fuse;
     BlockSelector tone, gamma, color, white_balance, gain;
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "near_names.h"
+#include "quantile_features.h"
 #include "safetensors.h"
 
 namespace srisp {
@@ -192,22 +193,29 @@ void take_scalar_dictionaries(TensorTaker& file, ModelData& model)
     }
 }
 
+/// Which of the parts that a model may lack it has.
+struct Parts {
+    bool statistics = false, anchor = false, anchor_network = false;
+};
+
 /// Metadata first: it says which tensors there must be, and of which shapes.
-Status read_settings(ModelData& model, const std::string& where, bool& statistics, bool& anchor)
+Status read_settings(ModelData& model, const std::string& where, Parts& parts)
 {
     MetadataReader metadata(model.metadata, where);
-    metadata.one_of("format", { "srisp-1" });
+    parts.anchor_network = metadata.one_of("format", { "srisp-1", "srisp-2" }) == "srisp-2";
     model.kernel_size = metadata.one_of("kernel_size", { "3", "1" }) == "1" ? 1 : 3;
     model.dictionary_size = metadata.count("dictionary_size", kMaxDictionarySize);
     model.perceptual_encoder_input = metadata.one_of("encoder_input", { "perceptual", "plain" }) == "perceptual";
-    statistics = metadata.one_of("statistics", { "12", "0" }) == "12";
-    anchor = metadata.one_of("anchor", { "1", "0" }) == "1";
+    parts.statistics = metadata.one_of("statistics", { "12", "0" }) == "12";
+    parts.anchor = metadata.one_of("anchor", { "1", "0" }) == "1";
     metadata.text("train_data");
     metadata.text("license");
     if (Status status = metadata.status(); !status)
         return status;
-    if (anchor && !statistics)
+    if (parts.anchor && !parts.statistics)
         return Error{ where + ": metadata 'anchor' is 1 but 'statistics' is 0; the anchor needs the statistics" };
+    if (parts.anchor_network && !parts.anchor)
+        return Error{ where + ": metadata 'format' is srisp-2 but 'anchor' is 0; its network needs the anchor" };
     return {};
 }
 
@@ -220,20 +228,24 @@ Expected<std::unique_ptr<ModelData>> parse_model(const std::string& bytes, const
         return file.error();
     auto model = std::make_unique<ModelData>();
     model->metadata = file->metadata;
-    bool statistics = false, anchor = false;
-    if (Status status = read_settings(*model, where, statistics, anchor); !status)
+    Parts parts;
+    if (Status status = read_settings(*model, where, parts); !status)
         return status.error();
 
     TensorTaker tensors(std::move(*file), where);
     const int atoms = model->dictionary_size, candidates = 3 * atoms;
     model->source_encoder = tensors.take_encoder("source_encoder", { 3, 32, 64, 128, 128, 128 });
     model->reference_encoder = tensors.take_encoder("reference_encoder", { 3, 32, 64, 128, 128, 128 });
-    if (statistics) {
+    if (parts.statistics) {
         model->source_statistics = tensors.take_linear("source_statistics", 128, 12);
         model->reference_statistics = tensors.take_linear("reference_statistics", 128, 12);
     }
-    if (anchor)
+    if (parts.anchor)
         model->anchor = tensors.take_linear("anchor", 3, 24);
+    if (parts.anchor_network)
+        model->anchor_network = { tensors.take_linear("anchor_network.0", 64, 24 + 2 * kQuantileFeatures),
+                                  tensors.take_linear("anchor_network.1", 64, 64),
+                                  tensors.take_linear("anchor_network.2", 3, 64) };
     model->fuse = tensors.take_linear("fuse", 128, 256);
     model->tone = take_selector(tensors, "tone", 3, atoms, kToneLayers);
     model->gamma = take_selector(tensors, "gamma", candidates, atoms, 1);

@@ -7,6 +7,7 @@
 
 #include "encoder.h"
 #include "linear_layer.h"
+#include "quantile_features.h"
 #include "statistics.h"
 #include "tone_map.h"
 
@@ -96,6 +97,10 @@ private:
             power(m_running.planes(), linear.planes(), kCount, 2.2f, 1e-8f, 0);
             m_source_statistics = statistics(linear.planes(), kCount);
             m_reference_statistics = statistics(m_reference.planes(), kCount);
+            if (!m_model.anchor_network.empty()) {
+                m_source_quantiles = quantile_features(linear.planes(), kThumbnailSize, kThumbnailSize);
+                m_reference_quantiles = quantile_features(m_reference.planes(), kThumbnailSize, kThumbnailSize);
+            }
             add_statistics(source, *m_model.source_statistics, m_source_statistics);
             add_statistics(reference, *m_model.reference_statistics, m_reference_statistics);
         }
@@ -186,14 +191,36 @@ private:
         note(&SelectionTrace::after_color);
     }
 
+    /// The means of the RAW that the anchor expects: a line, which a network corrects.
+    std::vector<float> log_means() const
+    {
+        const auto append = [](std::vector<float>& numbers, const auto& more) {
+            numbers.insert(numbers.end(), more.begin(), more.end());
+        };
+        std::vector<float> numbers;
+        append(numbers, m_source_statistics);
+        append(numbers, m_reference_statistics);
+        std::vector<float> line = transformed(*m_model.anchor, numbers);
+        if (m_model.anchor_network.empty())
+            return line;
+        append(numbers, m_source_quantiles);
+        append(numbers, m_reference_quantiles);
+        for (const Linear& layer : m_model.anchor_network) {
+            numbers = transformed(layer, numbers);
+            if (&layer != &m_model.anchor_network.back())
+                for (float& v : numbers)
+                    v = std::max(v, 0.0f);
+        }
+        std::transform(line.begin(), line.end(), numbers.begin(), line.begin(), std::plus<float>());
+        return line;
+    }
+
     /// b_c = mean of the running thumbnail / predicted mean of the RAW [method 2, anchor]
     void anchor()
     {
         if (!m_model.anchor)
             return;
-        std::vector<float> numbers(m_source_statistics.begin(), m_source_statistics.end());
-        numbers.insert(numbers.end(), m_reference_statistics.begin(), m_reference_statistics.end());
-        const std::vector<float> log_means = transformed(*m_model.anchor, numbers);
+        const std::vector<float> log_means = this->log_means();
         for (int c = 0; c < 3; ++c) {
             const float* values = m_running.planes().plane(c);
             double sum = 0;
@@ -250,6 +277,7 @@ private:
     PlanarThumbnail m_running, m_reference;
     SelectionTrace* m_trace;
     std::array<float, 12> m_source_statistics{}, m_reference_statistics{};
+    std::array<float, kQuantileFeatures> m_source_quantiles{}, m_reference_quantiles{};
     std::vector<float> m_fused;
     std::array<float, 3> m_base_gain{ 1, 1, 1 };
     Parameters m_parameters;

@@ -11,50 +11,129 @@ namespace srisp::train {
 namespace {
 
 constexpr int kBatch = 64, kStatistics = 12;
+constexpr double kDarkest = 1e-3;    // of a mean, as in the statistics
+constexpr double kSmallest = 1e-3;   // deviation of an input: some are the same in all images
+constexpr double kMakingPairs = 0.9; // part of the work
+
+/// What the anchor is fitted to, a row for each pair.
+struct Rows {
+    torch::Tensor inputs, log_means; ///< [n, 110] (24 without a network), [n, 3]
+
+    Rows slice(std::int64_t begin, std::int64_t end) const
+    {
+        return { inputs.slice(0, begin, end), log_means.slice(0, begin, end) };
+    }
+};
 
 double root_mean_square(const torch::Tensor& errors)
 {
     return errors.square().mean().sqrt().item<double>();
 }
 
+torch::Tensor line_of(const AnchorFit& fit, const torch::Tensor& inputs)
+{
+    return torch::addmm(fit.bias, inputs.slice(1, 0, kAnchorStatistics), fit.weight.t());
+}
+
+Rows collect(Samples& samples, int pairs, bool with_quantiles, const std::function<void(double)>& progress)
+{
+    std::vector<torch::Tensor> inputs, means;
+    for (int done = 0, step = 0; done < pairs; ++step) {
+        const int count = std::min(kBatch, pairs - done);
+        const Batch batch = samples.batch(step, 0, count, 0, 0);
+        const torch::Tensor statistics =
+            torch::cat({ image_statistics(linear_source(batch.source)), image_statistics(batch.reference) }, 1);
+        inputs.push_back(
+            (with_quantiles ? anchor_inputs(statistics, batch.source, batch.reference) : statistics).cpu());
+        means.push_back(batch.truth.mean({ 2, 3 }).clamp_min(kDarkest).log().cpu());
+        done += count;
+        progress(static_cast<double>(done) / pairs);
+    }
+    return { torch::cat(inputs), torch::cat(means) };
+}
+
+/// Adam on the absolute error of what the line misses.
+void fit_network(AnchorNetwork& network, const Rows& rows, const AnchorFit& line, const AnchorFitSettings& settings,
+                 std::uint64_t seed, const std::function<void(double)>& progress)
+{
+    ParameterVector parameters(network);
+    const torch::Device device = parameters.values().device();
+    const torch::Tensor mean = rows.inputs.mean(0).to(device);
+    const torch::Tensor deviation = rows.inputs.std(0).clamp_min(kSmallest).to(device);
+    const torch::Tensor inputs = (rows.inputs.to(device) - mean) / deviation;
+    const torch::Tensor missed = (rows.log_means - line_of(line, rows.inputs)).to(device);
+
+    std::vector<torch::Tensor> matrices;
+    for (const torch::Tensor& parameter : network.parameters())
+        if (parameter.dim() == 2)
+            matrices.push_back(parameter);
+    OptimizerSettings optimizer;
+    optimizer.rate = settings.rate;
+    optimizer.weight_decay = settings.weight_decay;
+    Adam adam(optimizer, parameters, torch::zeros_like(parameters.values()), parameters.mask_of(matrices));
+
+    at::Generator generator = at::detail::createCPUGenerator(seed);
+    for (int step = 0; step < settings.steps; ++step) {
+        const torch::Tensor chosen =
+            torch::randint(inputs.size(0), { settings.batch }, generator, torch::kLong).to(device);
+        parameters.gradients().zero_();
+        (network.forward(inputs.index_select(0, chosen)) - missed.index_select(0, chosen)).abs().mean().backward();
+        adam.update(step, rate_factor(optimizer, step, settings.steps), adam.gradient_norm());
+        progress(static_cast<double>(step + 1) / settings.steps);
+    }
+    network.take_plain_inputs(mean, deviation);
+}
+
 } // namespace
 
-AnchorFit fit_anchor(const torch::Tensor& statistics, const torch::Tensor& truth_means, double ridge)
+AnchorFit fit_line(const torch::Tensor& statistics, const torch::Tensor& log_means, double ridge)
 {
-    const torch::Tensor s = statistics.to(torch::kFloat64);
-    const torch::Tensor log_means = truth_means.to(torch::kFloat64).clamp_min(1e-3).log();
+    const torch::Tensor s = statistics.to(torch::kFloat64), l = log_means.to(torch::kFloat64);
     // The bias takes no penalty: centred values leave it out of the equations.
-    const torch::Tensor s_mean = s.mean(0), log_mean = log_means.mean(0);
+    const torch::Tensor s_mean = s.mean(0), l_mean = l.mean(0);
     const torch::Tensor centred = s - s_mean;
     const torch::Tensor normal =
         torch::mm(centred.t(), centred) + ridge * static_cast<double>(s.size(0)) * torch::eye(s.size(1), s.options());
-    const torch::Tensor weight = torch::linalg_solve(normal, torch::mm(centred.t(), log_means - log_mean)).t();
+    const torch::Tensor weight = torch::linalg_solve(normal, torch::mm(centred.t(), l - l_mean)).t();
 
     AnchorFit fit;
-    const torch::Tensor bias = log_mean - torch::mv(weight, s_mean);
-    fit.deviation = root_mean_square(torch::addmm(bias, s, weight.t()) - log_means);
-    fit.gain_match_deviation = root_mean_square(2 * s.slice(1, kStatistics, kStatistics + 3) - 2 - log_means);
     fit.weight = weight.to(torch::kFloat32);
-    fit.bias = bias.to(torch::kFloat32);
+    fit.bias = (l_mean - torch::mv(weight, s_mean)).to(torch::kFloat32);
     return fit;
 }
 
-std::optional<AnchorFit> start_anchor(Unprocessor& model, Samples& samples, const AnchorFitSettings& settings)
+std::optional<AnchorFit> start_anchor(Unprocessor& model, Samples& samples, const AnchorFitSettings& settings,
+                                      std::uint64_t seed, const std::function<void(double)>& progress)
 {
     auto* const network = dynamic_cast<Network*>(&model);
     if (!network || !network->has_anchor())
         return {};
-    const torch::NoGradGuard no_gradient;
-    std::vector<torch::Tensor> statistics, means;
-    for (int done = 0, step = 0; done < settings.pairs; ++step) {
-        const int count = std::min(kBatch, settings.pairs - done);
-        const Batch batch = samples.batch(step, 0, count, 0, 0);
-        statistics.push_back(torch::cat({ source_statistics(batch.source), image_statistics(batch.reference) }, 1));
-        means.push_back(batch.truth.mean({ 2, 3 }));
-        done += count;
+    AnchorNetwork* const correction = network->anchor_network();
+    const auto report = [&](double from, double to, double part) {
+        if (progress)
+            progress(from + (to - from) * part);
+    };
+    Rows all;
+    {
+        const torch::NoGradGuard no_gradient;
+        all = collect(samples, settings.pairs, correction != nullptr,
+                      [&](double part) { report(0, kMakingPairs, part); });
     }
-    const AnchorFit fit = fit_anchor(torch::cat(statistics).cpu(), torch::cat(means).cpu(), settings.ridge);
+    const std::int64_t fitted = settings.pairs - settings.pairs / 10;
+    const Rows rows = all.slice(0, fitted), tested = all.slice(fitted, settings.pairs);
+    AnchorFit fit = fit_line(rows.inputs.slice(1, 0, kAnchorStatistics), rows.log_means, settings.ridge);
     network->set_anchor(fit.weight, fit.bias);
+    if (correction)
+        fit_network(*correction, rows, fit, settings, seed, [&](double part) { report(kMakingPairs, 1, part); });
+
+    const torch::NoGradGuard no_gradient;
+    const torch::Device model_device = model.parameters().front().device();
+    const torch::Tensor error = line_of(fit, tested.inputs) - tested.log_means;
+    fit.line_deviation = fit.deviation = root_mean_square(error);
+    if (correction)
+        fit.deviation = root_mean_square(error + correction->forward(tested.inputs.to(model_device)).cpu());
+    fit.gain_match_deviation =
+        root_mean_square(2 * tested.inputs.slice(1, kStatistics, kStatistics + 3) - 2 - tested.log_means);
     return fit;
 }
 

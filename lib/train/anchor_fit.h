@@ -1,35 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 
+#include "optimizer.h"
 #include "samples.h"
 #include "unprocessor.h"
 
 namespace srisp::train {
 
+/// How an anchor is fitted, before the first step, to what its images' statistics say about the RAW's brightness: a
+/// line in closed form, then the network by Adam on what the line misses.
 struct AnchorFitSettings {
-    int pairs = 4096;
+    int pairs = 24000;
     double ridge = 1e-3;
+    int steps = 3000;
+    int batch = 256;
+    double rate = 2e-3;
+    double weight_decay = 1e-2;
 
     template<class Visitor> void describe(Visitor& v)
     {
-        v.integer("pairs", pairs, 32, 1'000'000, "training pairs that the anchor is fitted to before the first step");
-        v.number("ridge", ridge, 0, 1e3, "penalty on the squared weights, per pair");
+        v.integer("pairs", pairs, 32, 10'000'000, "training pairs that the anchor is fitted to before the first step");
+        v.number("ridge", ridge, 0, 1e3, "penalty on the squared weights of the line, per pair");
+        v.integer("steps", steps, 1, 10'000'000, "optimiser steps of the anchor's network");
+        v.integer("batch", batch, 1, 1'000'000, "pairs in each of them");
+        v.number("rate", rate, 0, 1, "highest learning rate of the network, one cycle");
+        v.number("weight_decay", weight_decay, 0, 1, "decoupled weight decay of the network");
     }
 };
 
-/// A linear regression of the RAW's log channel means on the statistics of source and reference [method 2].
+/// What a fit found. Deviations are root mean squares of the error of ln mean over pairs and channels; the last tenth
+/// of the pairs is not fitted to, and all deviations are measured on it alone.
 struct AnchorFit {
-    torch::Tensor weight, bias;      ///< [3, 24], [3]
-    double deviation = 0;            ///< of the error of ln mean, root of its mean square over pairs and channels
-    double gain_match_deviation = 0; ///< the same where the reference's means are taken for the RAW's
+    torch::Tensor weight, bias;      ///< [3, 24], [3]: a linear regression of the RAW's log channel means [method 2]
+    double line_deviation = 0;       ///< of the line
+    double deviation = 0;            ///< of line and network
+    double gain_match_deviation = 0; ///< where the reference's means are taken for the RAW's
 };
 
-/// Ridge regression in closed form: `statistics` [n, 24], source's then reference's; `truth_means` [n, 3]. n ≥ 2.
-AnchorFit fit_anchor(const torch::Tensor& statistics, const torch::Tensor& truth_means, double ridge);
+/// The line, by ridge regression in closed form: `statistics` [n, 24], source's then reference's; `log_means` [n, 3].
+/// n ≥ 2. Only `weight` and `bias` of the result are set.
+AnchorFit fit_line(const torch::Tensor& statistics, const torch::Tensor& log_means, double ridge);
 
-/// Fits the model's anchor to pseudo pairs of the first steps; nothing where the model has none.
-std::optional<AnchorFit> start_anchor(Unprocessor& model, Samples& samples, const AnchorFitSettings& settings);
+/// Fits the model's anchor to pseudo pairs of the first steps; nothing where the model has none. `progress` gets the
+/// part that is done, 0 … 1. `seed`: of the network's batches.
+std::optional<AnchorFit> start_anchor(Unprocessor& model, Samples& samples, const AnchorFitSettings& settings,
+                                      std::uint64_t seed, const std::function<void(double)>& progress = {});
 
 } // namespace srisp::train

@@ -5,30 +5,48 @@
 
 #include <ATen/Parallel.h>
 
+#include "quantile_features.h"
 #include "statistics.h"
 
 namespace srisp::train {
 
-torch::Tensor image_statistics(const torch::Tensor& linear)
+namespace {
+
+/// `numbers_of(planes, height, width)` of each image, an array of `count`.
+template<class Numbers> torch::Tensor numbers_of_each(const torch::Tensor& linear, int count, const Numbers& numbers_of)
 {
     const torch::Tensor images = linear.detach().to(torch::kCPU, torch::kFloat32).contiguous();
-    const std::int64_t pixels = images.size(2) * images.size(3);
-    torch::Tensor result = torch::empty({ images.size(0), 12 });
+    const std::int64_t height = images.size(2), width = images.size(3), pixels = height * width;
+    torch::Tensor result = torch::empty({ images.size(0), count });
     float* const values = images.data_ptr<float>();
     float* const numbers = result.data_ptr<float>();
     at::parallel_for(0, images.size(0), 1, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
-            const auto twelve =
-                srisp::statistics({ values + i * 3 * pixels, pixels }, static_cast<std::size_t>(pixels));
-            std::copy(twelve.begin(), twelve.end(), numbers + i * 12);
+            const auto some = numbers_of(Planes{ values + i * 3 * pixels, pixels }, static_cast<int>(height),
+                                         static_cast<int>(width));
+            std::copy(some.begin(), some.end(), numbers + i * count);
         }
     });
     return result.to(linear.device());
 }
 
-torch::Tensor source_statistics(const torch::Tensor& display)
+} // namespace
+
+torch::Tensor image_statistics(const torch::Tensor& linear)
 {
-    return image_statistics(display.detach().clamp_min(1e-8).pow(2.2));
+    return numbers_of_each(linear, 12, [](Planes image, int height, int width) {
+        return statistics(image, static_cast<std::size_t>(height) * width);
+    });
+}
+
+torch::Tensor image_quantiles(const torch::Tensor& linear)
+{
+    return numbers_of_each(linear, kQuantileFeatures, quantile_features);
+}
+
+torch::Tensor linear_source(const torch::Tensor& display)
+{
+    return display.detach().clamp_min(1e-8).pow(2.2);
 }
 
 } // namespace srisp::train

@@ -53,7 +53,7 @@ Named with_missing_parts(Named parameters, const ModelSettings& settings)
 void describe_model(const ModelSettings& settings, std::map<std::string, std::string>& metadata)
 {
     const ModelSettings full = full_settings(settings);
-    metadata["format"] = "srisp-1";
+    metadata["format"] = full.anchor_network ? "srisp-2" : "srisp-1";
     metadata["kernel_size"] = full.kernel_size;
     metadata["dictionary_size"] = std::to_string(full.dictionary_size);
     metadata["encoder_input"] = full.encoder_input;
@@ -116,6 +116,7 @@ ModelSettings settings_of(const ModelData& data)
     settings.encoder_input = data.perceptual_encoder_input ? "perceptual" : "plain";
     settings.statistics = data.source_statistics.has_value();
     settings.anchor = data.anchor.has_value();
+    settings.anchor_network = !data.anchor_network.empty();
     return settings;
 }
 

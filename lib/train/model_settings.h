@@ -16,7 +16,7 @@ struct ModelSettings {
     std::string kernel_size = "3";
     int dictionary_size = 5;
     std::string encoder_input = "perceptual";
-    bool statistics = true, anchor = true;
+    bool statistics = true, anchor = true, anchor_network = true;
     std::string selection = "dynamic", gain = "separate", tone = "dynamic", gamma = "dynamic";
     int unet_channels = 16;
 
@@ -33,6 +33,7 @@ struct ModelSettings {
         v.choice("encoder_input", encoder_input, { "perceptual", "plain" }, "plain: as in the paper");
         v.flag("statistics", statistics, "12 brightness statistics join the features");
         v.flag("anchor", anchor, "gains start from a regression of brightness; needs statistics");
+        v.flag("anchor_network", anchor_network, "a small network corrects that regression; needs the anchor");
         v.choice("selection", selection, { "dynamic", "intermediate", "static" },
                  "intermediate: without source and reference features; static: one parameter set for all images");
         v.choice("gain", gain, { "separate", "merged" }, "merged: gain and white balance are one dictionary");
@@ -41,11 +42,12 @@ struct ModelSettings {
         v.integer("unet_channels", unet_channels, 4, 128, "of the first level of the U-Net");
     }
 
-    /// The settings as `mbispld` fixes them: gain and white balance in one dictionary, one gamma, one 1×1 tone map,
-    /// selection from the intermediate images alone [P 4.2]; others unchanged.
+    /// Without what needs something that is off, and as `mbispld` fixes them: gain and white balance in one dictionary,
+    /// one gamma, one 1×1 tone map, selection from the intermediate images alone [P 4.2]; others unchanged.
     ModelSettings resolved() const
     {
         ModelSettings s = *this;
+        s.anchor_network = anchor && anchor_network && method == "srisp";
         if (method != "mbispld")
             return s;
         s.kernel_size = "1";

@@ -58,7 +58,9 @@ Network::Network(const ModelSettings& settings, std::uint64_t seed)
         m_fuse = layer("fuse", kFeatures, 2 * kFeatures);
     }
     if (m_settings.anchor)
-        m_anchor = layer("anchor", 3, 2 * kStatistics);
+        m_anchor = layer("anchor", 3, kAnchorStatistics);
+    if (m_settings.anchor && m_settings.anchor_network)
+        m_anchor_network = register_module("anchor_network", std::make_shared<AnchorNetwork>(initial));
     m_tone = selector("tone", m_settings.tone, 3, kToneLayers);
     m_gamma = selector("gamma", m_settings.gamma, 3 * atoms, 1);
     m_color = selector("color", "dynamic", 3 * atoms, 1);
@@ -118,7 +120,8 @@ private:
     void encode_images()
     {
         if (m_network.m_source_statistics || m_network.m_anchor) {
-            m_source_statistics = source_statistics(m_source);
+            const torch::Tensor linear = linear_source(m_source);
+            m_source_statistics = image_statistics(linear);
             m_reference_statistics = image_statistics(m_reference);
             note("source_statistics", m_source_statistics);
             note("reference_statistics", m_reference_statistics);
@@ -179,14 +182,22 @@ private:
         note("after_color", m_running);
     }
 
+    /// The means of the RAW that the anchor expects, [N, 3].
+    torch::Tensor log_means() const
+    {
+        const torch::Tensor statistics = torch::cat({ m_source_statistics, m_reference_statistics }, 1);
+        const torch::Tensor line = m_network.m_anchor->affine(statistics);
+        if (!m_network.m_anchor_network)
+            return line;
+        return line + m_network.m_anchor_network->forward(anchor_inputs(statistics, m_source, m_reference));
+    }
+
     /// b_c = mean of the running image / predicted mean of the RAW [method 2, anchor]
     void find_base()
     {
         m_choice.base = torch::ones({ m_images, 3 }, m_source.options());
         if (m_network.m_anchor) {
-            const torch::Tensor log_means =
-                m_network.m_anchor->affine(torch::cat({ m_source_statistics, m_reference_statistics }, 1));
-            m_choice.base = m_running.mean({ 2, 3 }).clamp_min(1e-3) / torch::exp(log_means);
+            m_choice.base = m_running.mean({ 2, 3 }).clamp_min(1e-3) / torch::exp(log_means());
         }
         note("base_gain", m_choice.base);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "anchor_network.h"
 #include "block_selector.h"
 #include "dictionaries.h"
 #include "model_settings.h"
@@ -35,6 +36,8 @@ public:
     bool has_anchor() const { return m_anchor != nullptr; }
     /// A [3, 24] and a [3]; only where there is an anchor.
     void set_anchor(const torch::Tensor& weight, const torch::Tensor& bias);
+    /// Null where the anchor is a line alone.
+    AnchorNetwork* anchor_network() const { return m_anchor_network.get(); }
 
 private:
     friend class SelectionRun;
@@ -44,6 +47,7 @@ private:
     std::shared_ptr<FeatureEncoder> m_source_encoder, m_reference_encoder; ///< null: no selection by these
     std::shared_ptr<Layer> m_source_statistics, m_reference_statistics;    ///< null: no statistics branch
     std::shared_ptr<Layer> m_anchor, m_fuse;
+    std::shared_ptr<AnchorNetwork> m_anchor_network;
     std::shared_ptr<BlockSelector> m_tone, m_gamma, m_color, m_white_balance, m_gain;
     std::shared_ptr<Dictionaries> m_dictionaries;
 };

@@ -6,6 +6,7 @@
 #include <torch/cuda.h>
 
 #include "../common/failure.h"
+#include "../common/progress_meter.h"
 #include "model_file.h"
 #include "model_files.h"
 #include "network.h"
@@ -130,11 +131,14 @@ Session open_session(const Options& options)
     return session;
 }
 
-std::optional<AnchorFit> start_model(Session& session)
+std::optional<AnchorFit> start_model(Session& session, bool quiet)
 {
-    if (!session.settings().init.empty())
+    const Recipe& recipe = session.settings();
+    if (!recipe.init.empty())
         return {};
-    return start_anchor(*session.model, *session.samples, session.settings().anchor_fit);
+    ProgressMeter meter("srisptrain: fitting the anchor", "%", 100, !quiet);
+    return start_anchor(*session.model, *session.samples, recipe.anchor_fit, static_cast<std::uint64_t>(recipe.seed),
+                        [&meter](double part) { meter.show(static_cast<std::int64_t>(part * 100)); });
 }
 
 } // namespace srisp

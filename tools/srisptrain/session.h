@@ -35,7 +35,7 @@ train::LoadedRecipe recipe_of(const Options& options);
 /// Opens everything; fails with a message about what is wrong.
 Session open_session(const Options& options);
 
-/// The closed-form fit of a new model's anchor; nothing where it has none, or started from another model.
-std::optional<train::AnchorFit> start_model(Session& session);
+/// The fit of a new model's anchor; nothing where it has none, or started from another model.
+std::optional<train::AnchorFit> start_model(Session& session, bool quiet);
 
 } // namespace srisp

@@ -24,8 +24,9 @@ void write_or_fail(const std::string& path, const std::string& text)
 void say_anchor(Host& host, const AnchorFit& fit)
 {
     char text[160];
-    std::snprintf(text, sizeof text, "anchor fitted: error of the log mean %.3f on training pairs (gain match %.3f)",
-                  fit.deviation, fit.gain_match_deviation);
+    std::snprintf(text, sizeof text,
+                  "anchor fitted: error of the log mean %.3f (a line alone %.3f, gain match %.3f), on pairs held out",
+                  fit.deviation, fit.line_deviation, fit.gain_match_deviation);
     host.note(text);
 }
 
@@ -58,7 +59,7 @@ int train_model(Session& session, const Options& options)
         if (!session.tests)
             host.note("no validation: " + session.tests_missing + "; the last model is kept");
         if (options.restart || !find_checkpoint(recipe.output, recipe, session.pack->hash()))
-            if (const auto fit = start_model(session))
+            if (const auto fit = start_model(session, options.quiet))
                 say_anchor(host, *fit);
     }
     Trainer trainer(

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "model_file.h"
+#include "network.h"
 #include "random_model.h"
 #include "shared_files.h"
 #include "tensor_tools.h"
@@ -112,6 +113,21 @@ TEST_CASE("library and LibTorch compute the same with random models")
             file.type = seed == 3 ? "BF16" : "F16";
             check_model(file.write(folder.path("m.safetensors")), seed * 10);
         }
+}
+
+TEST_CASE("library and LibTorch compute the same with new models, as training starts with them")
+{
+    const ScratchFolder folder;
+    const std::string path = folder.path("m.safetensors");
+    for (const char* kernel_size : { "3", "1" }) {
+        ModelSettings settings;
+        settings.kernel_size = kernel_size;
+        const std::shared_ptr<Unprocessor> model = make_unprocessor(settings, 3);
+        const Status status =
+            save_model(*model, settings, path, { { "train_data", "none" }, { "license", "none" } }, "F32");
+        REQUIRE_MESSAGE(status, status.error().message);
+        check_model(path, 4);
+    }
 }
 
 TEST_CASE("library and LibTorch compute the same with the models that ship")

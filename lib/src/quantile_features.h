@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "pointwise.h"
+
+namespace srisp {
+
+constexpr int kQuantileFeatures = 43;
+
+/// What the anchor's network sees of a linear image, besides the twelve statistics: of R, G, B and their mean, in this
+/// order, the quantiles 0.02, 0.1, 0.25, 0.4, 0.5, 0.6, 0.75, 0.9, 0.97, 0.995, each as ln(max(q, 1e-4)) × 0.5 + 1;
+/// then the shares of R, G and B above 0.95. Taken of means over blocks of max(1, height / 64) × max(1, width / 64)
+/// pixels (whole blocks only), so that thumbnails of all sizes give about the same numbers. Quantiles interpolate
+/// linearly at q (count − 1). `image`: rows without gaps.
+std::array<float, kQuantileFeatures> quantile_features(Planes image, int height, int width);
+
+} // namespace srisp

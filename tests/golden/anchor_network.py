@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""An independent implementation, in NumPy, of what model format srisp-2 adds to srisp-1: the quantile features and the
+network that corrects the anchor. Writes anchor_network.json, which the tests compare the library with.
+
+    python3 tests/golden/anchor_network.py GOLDEN > tests/golden/anchor_network.json
+
+GOLDEN is the folder with the golden values of srisp-1 (values_spatial.safetensors)."""
+import json
+import struct
+import sys
+
+import numpy as np
+
+
+def load(path):
+    with open(path, "rb") as file:
+        (size,) = struct.unpack("<Q", file.read(8))
+        header = json.loads(file.read(size))
+        data = file.read()
+    kinds = {"F32": np.float32, "F16": np.float16}
+    return {
+        name: np.frombuffer(data[slice(*entry["data_offsets"])], kinds[entry["dtype"]]).reshape(entry["shape"])
+        for name, entry in header.items()
+        if name != "__metadata__"
+    }
+
+
+def quantile_features(image):
+    """image: [height, width, 3], linear."""
+    height, width, _ = image.shape
+    rows, columns = max(1, height // 64), max(1, width // 64)
+    whole = image[: height // rows * rows, : width // columns * columns].astype(np.float64)
+    small = whole.reshape(height // rows, rows, width // columns, columns, 3).mean((1, 3)).reshape(-1, 3)
+    levels = [0.02, 0.1, 0.25, 0.4, 0.5, 0.6, 0.75, 0.9, 0.97, 0.995]
+    channels = [small[:, 0], small[:, 1], small[:, 2], small.mean(1)]
+    quantiles = [np.quantile(channel, levels) for channel in channels]
+    logs = np.log(np.maximum(np.concatenate(quantiles), 1e-4)) * 0.5 + 1
+    return np.concatenate([logs, (small > 0.95).mean(0)])
+
+
+def made_up_image(height, width):
+    y, x, c = np.meshgrid(np.arange(height), np.arange(width), np.arange(3), indexing="ij")
+    wave = 0.5 + 0.5 * np.sin(0.013 * x + 0.007 * (c + 1) * y + c)
+    return np.minimum(1.05 * wave**2, 1).astype(np.float32)
+
+
+def made_up_network(inputs):
+    """Three affine layers with made-up weights, ReLU between them."""
+    x = inputs
+    for layer, (outputs, scale) in enumerate([(64, 0.1), (64, 0.1), (3, 0.05)]):
+        weight = scale * np.sin(0.7 * np.arange(outputs * len(x)) + layer).astype(np.float32).astype(np.float64)
+        bias = 0.05 * np.cos(np.arange(outputs) + layer)
+        x = weight.reshape(outputs, len(x)) @ x + bias
+        if layer < 2:
+            x = np.maximum(x, 0)
+    return x
+
+
+golden = load(sys.argv[1] + "/values_spatial.safetensors")
+source = np.maximum(golden["thumb.source"].reshape(256, 256, 3).astype(np.float64), 1e-8) ** 2.2
+reference = golden["thumb.reference"].reshape(256, 256, 3)
+statistics = [golden[name].reshape(-1) for name in ("source_statistics", "reference_statistics")]
+correction = made_up_network(np.concatenate([*statistics, quantile_features(source), quantile_features(reference)]))
+base = golden["base_gain"].reshape(-1).astype(np.float64)
+json.dump(
+    {
+        "features_256x256": quantile_features(made_up_image(256, 256)).tolist(),
+        "features_150x70": quantile_features(made_up_image(150, 70)).tolist(),
+        "correction": correction.tolist(),
+        "base_gain": (base / np.exp(correction)).tolist(),
+    },
+    sys.stdout,
+    indent=1,
+)
+print()

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// What model format srisp-2 adds, against an independent implementation: tests/golden/anchor_network.py.
+#include <cmath>
+#include <fstream>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+#include <srisp/model.h>
+
+#include "image_compare.h"
+#include "model_parser.h"
+#include "quantile_features.h"
+#include "random_model.h"
+#include "selection.h"
+#include "shared_files.h"
+
+using namespace srisp;
+
+namespace {
+
+constexpr double kTolerance = 1e-4; // of max(1, |value|) [method 3]
+
+std::vector<float> expected(const char* name)
+{
+    std::ifstream file(SRISP_SOURCE_DIR "/tests/golden/anchor_network.json");
+    REQUIRE(file);
+    return nlohmann::json::parse(file).at(name).get<std::vector<float>>();
+}
+
+template<class Values> void check_near(const Values& actual, const char* name)
+{
+    const Difference difference = compare(actual, expected(name));
+    INFO(name, ": ", difference.text);
+    CHECK(difference.largest_relative <= kTolerance);
+}
+
+std::vector<float> made_up_image(int height, int width)
+{
+    std::vector<float> planes;
+    for (int c = 0; c < 3; ++c)
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const double wave = 0.5 + 0.5 * std::sin(0.013 * x + 0.007 * (c + 1) * y + c);
+                planes.push_back(static_cast<float>(std::min(1.05 * wave * wave, 1.0)));
+            }
+    return planes;
+}
+
+Tensor made_up(std::vector<std::int64_t> shape, double scale, double (*wave)(double), double step, int layer)
+{
+    Tensor tensor{ std::move(shape), {} };
+    std::int64_t count = 1;
+    for (const std::int64_t size : tensor.shape)
+        count *= size;
+    for (std::int64_t i = 0; i < count; ++i)
+        tensor.values.push_back(static_cast<float>(scale * wave(step * static_cast<double>(i) + layer)));
+    return tensor;
+}
+
+} // namespace
+
+TEST_CASE("quantile features of large and of odd images")
+{
+    std::vector<float> square = made_up_image(256, 256), odd = made_up_image(150, 70);
+    check_near(quantile_features({ square.data(), 256 * 256 }, 256, 256), "features_256x256");
+    check_near(quantile_features({ odd.data(), 150 * 70 }, 150, 70), "features_150x70");
+}
+
+TEST_CASE("quantile features of one pixel, and of darkness")
+{
+    float pixel[] = { 1, 0.5f, 0 };
+    const auto features = quantile_features({ pixel, 1 }, 1, 1);
+    CHECK(features[0] == doctest::Approx(1));
+    CHECK(features[10] == doctest::Approx(std::log(0.5) / 2 + 1));
+    CHECK(features[20] == doctest::Approx(std::log(1e-4) / 2 + 1));
+    CHECK(features[30] == doctest::Approx(std::log(0.5) / 2 + 1));
+    CHECK(features[40] == 1);
+    CHECK(features[41] == 0);
+}
+
+TEST_CASE("the anchor's network corrects the golden model's gains")
+{
+    SKIP_WITHOUT_SHARED("golden/model_spatial.safetensors");
+    const std::string path = shared_file("golden/model_spatial.safetensors");
+    Expected<std::string> bytes = read_file(path, 1 << 26, path);
+    REQUIRE(bytes);
+    Expected<SafeTensors> golden = parse_safetensors(*bytes, path);
+    REQUIRE(golden);
+    ModelFile file{ golden->metadata, golden->tensors };
+    file.metadata["format"] = "srisp-2";
+    const std::int64_t sizes[] = { 24 + 2 * kQuantileFeatures, 64, 64, 3 };
+    for (int l = 0; l < 3; ++l) {
+        const std::string layer = "anchor_network." + std::to_string(l);
+        file.tensors[layer + ".weight"] = made_up(
+            { sizes[l + 1], sizes[l] }, l < 2 ? 0.1 : 0.05, [](double v) { return std::sin(v); }, 0.7, l);
+        file.tensors[layer + ".bias"] = made_up(
+            { sizes[l + 1] }, 0.05, [](double v) { return std::cos(v); }, 1, l);
+    }
+    Expected<std::unique_ptr<ModelData>> model = parse_model(file.bytes(), path);
+    REQUIRE_MESSAGE(model, (model ? "" : model.error().message));
+
+    const std::string values_path = shared_file("golden/values_spatial.safetensors");
+    Expected<std::string> values_bytes = read_file(values_path, 1 << 26, values_path);
+    REQUIRE(values_bytes);
+    Expected<SafeTensors> values = parse_safetensors(*values_bytes, values_path);
+    REQUIRE(values);
+    Thumbnail source, reference;
+    source.rgb = values->tensors.at("thumb.source").values;
+    reference.rgb = values->tensors.at("thumb.reference").values;
+    SelectionTrace trace;
+    select_parameters(**model, source, reference, &trace);
+    check_near(trace.base_gain, "base_gain");
+}
+
+TEST_CASE("a network without an anchor, or of another shape, is refused")
+{
+    ModelFile file = random_model(3, 1);
+    file.metadata["format"] = "srisp-2";
+    Expected<std::unique_ptr<ModelData>> model = parse_model(file.bytes(), "m");
+    REQUIRE(!model);
+    CHECK(model.error().message == "m: has no tensor 'anchor_network.0.weight'");
+    file.metadata["anchor"] = "0";
+    model = parse_model(file.bytes(), "m");
+    REQUIRE(!model);
+    CHECK(model.error().message == "m: metadata 'format' is srisp-2 but 'anchor' is 0; its network needs the anchor");
+}
