@@ -8,6 +8,7 @@ namespace {
 constexpr double kHighlight = 0.8; // of method.md, section 5
 constexpr double kWhite = 0.98;    // every channel of the photo at or above it
 constexpr double kDarkest = 1e-3;  // of a mean, as in the statistics
+constexpr double kShortest = 1e-3; // of a pixel's vector: the colour of what is darker does not matter
 
 torch::Tensor mean_per_image(const torch::Tensor& images)
 {
@@ -20,12 +21,26 @@ torch::Tensor masked_mean(const torch::Tensor& images, const torch::Tensor& mask
     return (images * mask).flatten(1).sum(1) / mask.expand_as(images).flatten(1).sum(1).clamp_min(1);
 }
 
+/// ln of the means of G, R/G and B/G, [N, 3]: errors of brightness are many times those of colour, and would hide them
+/// in sums over R, G and B.
 torch::Tensor log_means(const torch::Tensor& images)
 {
-    return images.mean({ 2, 3 }).clamp_min(kDarkest).log();
+    const torch::Tensor logs = images.mean({ 2, 3 }).clamp_min(kDarkest).log(), green = logs.slice(1, 1, 2);
+    return torch::cat({ green, logs.slice(1, 0, 1) - green, logs.slice(1, 2, 3) - green }, 1);
+}
+
+torch::Tensor directions(const torch::Tensor& images)
+{
+    return images / (images.square().sum(1, true) + kShortest * kShortest).sqrt();
 }
 
 } // namespace
+
+torch::Tensor brightness_ratio(const torch::Tensor& others, const torch::Tensor& images)
+{
+    const auto green = [](const torch::Tensor& v) { return v.slice(1, 1, 2).mean({ 2, 3 }, true).clamp_min(kDarkest); };
+    return green(others) / green(images);
+}
 
 bool needs_round_trip(const LossSettings& settings)
 {
@@ -42,14 +57,20 @@ std::vector<LossTerm> loss_terms(const LossSettings& settings, const Compared& i
     const auto encode = [&settings](const torch::Tensor& raw) {
         return raw.clamp_min(settings.floor).pow(1 / settings.gamma);
     };
+    const torch::Tensor matched =
+        settings.brightness_matched ? (images.predicted * brightness_ratio(images.truth, images.predicted)).clamp_max(1)
+                                    : images.predicted;
     const auto error = [&images] { return (images.predicted - images.truth).abs(); };
-    add("reverse", settings.reverse,
-        [&] { return mean_per_image((encode(images.truth) - encode(images.predicted)).abs()); });
+    add("reverse", settings.reverse, [&] { return mean_per_image((encode(images.truth) - encode(matched)).abs()); });
     if (images.processed.defined())
         add("forward", settings.forward, [&] { return mean_per_image((images.source - images.processed).abs()); });
-    add("linear", settings.linear, [&] { return mean_per_image(error()); });
+    add("linear", settings.linear, [&] { return mean_per_image((matched - images.truth).abs()); });
     add("log_mean", settings.log_mean,
-        [&] { return (log_means(images.truth) - log_means(images.predicted)).abs().mean(1); });
+        [&] { return (log_means(images.truth) - log_means(images.predicted)).abs().sum(1); });
+    add("angle", settings.angle, [&] {
+        const torch::Tensor difference = directions(images.truth) - directions(images.predicted);
+        return mean_per_image((difference.square().sum(1) + 1e-8).sqrt());
+    });
     add("highlights", settings.highlights,
         [&] { return masked_mean(error(), (images.truth > kHighlight).to(torch::kFloat)); });
     if (images.round_trip.defined()) {

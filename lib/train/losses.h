@@ -14,9 +14,11 @@ struct LossSettings {
     double forward = 1;
     double linear = 0;
     double log_mean = 0;
+    double angle = 0;
     double highlights = 0;
     double round_trip = 0;
     double white = 0;
+    bool brightness_matched = false;
     double gamma = 2.2;
     double floor = 1e-5;
 
@@ -25,10 +27,15 @@ struct LossSettings {
         v.number("reverse", reverse, 0, 1e3, "weight of |y^(1/gamma) - y'^(1/gamma)|, truth y, prediction y'");
         v.number("forward", forward, 0, 1e3, "weight of |x - f(y)|, photo x, forward pass f of the truth");
         v.number("linear", linear, 0, 1e3, "weight of |y - y'|");
-        v.number("log_mean", log_mean, 0, 1e3, "weight of |ln mean y - ln mean y'| per channel: brightness");
+        v.number("log_mean", log_mean, 0, 1e3, "weight of |m - m'|, summed over ln of the means of G, R/G and B/G");
+        v.number("angle", angle, 0, 1e3, "weight of |y/|y| - y'/|y'||: about the angle between colours, in radians");
         v.number("highlights", highlights, 0, 1e3, "weight of |y - y'| where the truth exceeds 0.8");
         v.number("round_trip", round_trip, 0, 1e3, "weight of |x - f(y')|");
         v.number("white", white, 0, 1e3, "weight of |x - f(y')| where the photo is clipped white");
+        v.flag(
+            "brightness_matched", brightness_matched,
+            "the terms reverse, linear and forward compare with the truth's mean of green: its error, which no image "
+            "tells, would drown that of colour and tone; log_mean is left to teach it");
         v.number("gamma", gamma, 1, 4, "gamma under which RAW is compared in the term 'reverse'");
         v.number("floor", floor, 1e-8, 1e-2,
                  "RAW values are raised to this before the gamma, whose slope at 0 is infinite");
@@ -47,6 +54,9 @@ struct LossTerm {
     double weight;
     torch::Tensor values;
 };
+
+/// Factors, [N, 1, 1, 1], that give images the mean of green of others; at most 1e3 times as bright or dark.
+torch::Tensor brightness_ratio(const torch::Tensor& others, const torch::Tensor& images);
 
 /// Whether a term compares `round_trip`.
 bool needs_round_trip(const LossSettings& settings);

@@ -275,6 +275,17 @@ std::vector<torch::Tensor> Network::dictionary_parameters()
     return all;
 }
 
+std::vector<torch::Tensor> Network::anchor_parameters()
+{
+    std::vector<torch::Tensor> all;
+    if (m_anchor)
+        all = m_anchor->parameters();
+    if (m_anchor_network)
+        for (const torch::Tensor& parameter : m_anchor_network->parameters())
+            all.push_back(parameter);
+    return all;
+}
+
 void Network::constrain()
 {
     m_dictionaries->constrain();

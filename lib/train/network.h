@@ -26,6 +26,7 @@ public:
     torch::Tensor process(const torch::Tensor& raw, const Choice& choice) override;
     /// The atoms but those of the tone map, and what a static selection learns.
     std::vector<torch::Tensor> dictionary_parameters() override;
+    std::vector<torch::Tensor> anchor_parameters() override;
     void constrain() override;
 
     /// `reverse` that notes what happens on the way.

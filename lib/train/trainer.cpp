@@ -68,7 +68,7 @@ Trainer::Trainer(const TrainerSettings& settings, std::shared_ptr<Unprocessor> m
       m_samples(std::move(samples), m_slice, device.is_cuda()), m_student(std::move(model)), m_parameters(*m_student),
       m_teacher(make(), m_parameters.values()), m_averaged(make(), m_parameters.values()),
       m_adam(settings.optimizer, m_parameters, m_parameters.mask_of(m_student->dictionary_parameters()),
-             decayed_elements(*m_student, m_parameters))
+             m_parameters.mask_of(m_student->anchor_parameters()), decayed_elements(*m_student, m_parameters))
 {
     m_student->train();
 }
@@ -107,8 +107,12 @@ Trainer::Pass Trainer::learn(const Batch& batch)
 {
     Choice choice;
     Compared images{ batch.source, batch.truth, m_student->reverse(batch.source, batch.reference, &choice), {}, {} };
+    // What the forward pass is given: the truth, as bright as the model takes it to be.
+    const auto shown = [this](const torch::Tensor& truth, const torch::Tensor& predicted) {
+        return m_settings.loss.brightness_matched ? (truth * brightness_ratio(predicted, truth)).clamp_max(1) : truth;
+    };
     if (m_settings.loss.forward > 0)
-        images.processed = m_student->process(batch.truth, choice);
+        images.processed = m_student->process(shown(batch.truth, images.predicted), choice);
     if (needs_round_trip(m_settings.loss))
         images.round_trip = m_student->process(images.predicted, choice);
 

@@ -36,8 +36,11 @@ public:
     /// Forward pass (RAW to display) with the same choice; undefined where the method has none.
     virtual torch::Tensor process(const torch::Tensor& raw, const Choice& choice) = 0;
 
-    /// Parameters that learn at the dictionaries' own rate; all others learn at the common one.
+    /// Parameters that learn at the dictionaries' own rate; others learn at the common one.
     virtual std::vector<torch::Tensor> dictionary_parameters() = 0;
+
+    /// Parameters that were fitted before the first step, and may have a rate of their own.
+    virtual std::vector<torch::Tensor> anchor_parameters() { return {}; }
 
     /// After every optimiser step: keeps parameters where they make sense (no gain below 1e-3, …).
     virtual void constrain() {}

@@ -61,6 +61,17 @@ TEST_CASE("terms for brightness, highlights, round trip and white")
     settings.log_mean = 1;
     CHECK(only(settings, { grey(0.5), grey(0.2), grey(0.4), {}, {} }) == doctest::Approx(std::log(2)).epsilon(1e-5));
 
+    torch::Tensor reddish = grey(0.4);
+    reddish[0][0].fill_(0.8);
+    CHECK(only(settings, { grey(0.5), grey(0.2), reddish, {}, {} }) == doctest::Approx(2 * std::log(2)).epsilon(1e-5));
+
+    settings = nothing();
+    settings.angle = 1;
+    CHECK(only(settings, { grey(0.5), grey(0.2), grey(0.4), {}, {} }) == doctest::Approx(0).epsilon(1e-3));
+    // (2, 1, 1) and (1, 1, 1) are 19.47° apart; the chord of that angle.
+    CHECK(only(settings, { grey(0.5), grey(0.2), reddish, {}, {} }) ==
+          doctest::Approx(2 * std::sin(19.4712 / 2 * M_PI / 180)).epsilon(1e-3));
+
     settings = nothing();
     settings.linear = 1;
     CHECK(only(settings, { grey(0.5), grey(0.2), grey(0.4), {}, {} }) == doctest::Approx(0.2).epsilon(1e-5));
@@ -90,11 +101,12 @@ TEST_CASE("terms for brightness, highlights, round trip and white")
 TEST_CASE("every term gives one value per image")
 {
     LossSettings settings;
-    settings.linear = settings.log_mean = settings.highlights = settings.round_trip = settings.white = 1;
+    settings.linear = settings.log_mean = settings.angle = settings.highlights = settings.round_trip = settings.white =
+        1;
     const torch::Tensor images = torch::rand({ 5, 3, 4, 4 });
     const std::vector<LossTerm> terms =
         loss_terms(settings, { images, images.flip({ 0 }), images, images * 0.5, images * 0.7 });
-    CHECK(terms.size() == 7);
+    CHECK(terms.size() == 8);
     for (const LossTerm& term : terms) {
         CAPTURE(term.name);
         CHECK(term.values.sizes() == torch::IntArrayRef{ 5 });
