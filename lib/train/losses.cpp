@@ -60,11 +60,11 @@ std::vector<LossTerm> loss_terms(const LossSettings& settings, const Compared& i
     const torch::Tensor matched =
         settings.brightness_matched ? (images.predicted * brightness_ratio(images.truth, images.predicted)).clamp_max(1)
                                     : images.predicted;
-    const auto error = [&images] { return (images.predicted - images.truth).abs(); };
+    const auto error = [&] { return (matched - images.truth).abs(); };
     add("reverse", settings.reverse, [&] { return mean_per_image((encode(images.truth) - encode(matched)).abs()); });
     if (images.processed.defined())
         add("forward", settings.forward, [&] { return mean_per_image((images.source - images.processed).abs()); });
-    add("linear", settings.linear, [&] { return mean_per_image((matched - images.truth).abs()); });
+    add("linear", settings.linear, [&] { return mean_per_image(error()); });
     add("log_mean", settings.log_mean,
         [&] { return (log_means(images.truth) - log_means(images.predicted)).abs().sum(1); });
     add("angle", settings.angle, [&] {
