@@ -52,8 +52,9 @@ Rows collect(Samples& samples, int pairs, bool with_quantiles, const std::functi
     return { torch::cat(inputs), torch::cat(means) };
 }
 
-/// Adam on the absolute error of what the line misses: of G, R/G and B/G, since errors of brightness are many times
-/// those of colour, and would hide them in R, G and B.
+/// Adam on what the line misses: the relative error of G (which is what images differ by: twice too bright is worse
+/// than half as bright), and the error of ln R/G and ln B/G (errors of brightness are many times those of colour, and
+/// would hide them in R and B).
 void fit_network(AnchorNetwork& network, const Rows& rows, const AnchorFit& line, const AnchorFitSettings& settings,
                  std::uint64_t seed, const std::function<void(double)>& progress)
 {
@@ -74,15 +75,17 @@ void fit_network(AnchorNetwork& network, const Rows& rows, const AnchorFit& line
     const torch::Tensor none = torch::zeros_like(parameters.values());
     Adam adam(optimizer, parameters, none, none, parameters.mask_of(matrices));
 
-    const torch::Tensor parts =
-        torch::tensor({ 0.0f, 1.0f, 0.0f, 1.0f, -1.0f, -1.0f, 0.0f, 0.0f, 1.0f }).view({ 3, 3 }).to(device);
     at::Generator generator = at::detail::createCPUGenerator(seed);
     for (int step = 0; step < settings.steps; ++step) {
         const torch::Tensor chosen =
             torch::randint(inputs.size(0), { settings.batch }, generator, torch::kLong).to(device);
         parameters.gradients().zero_();
         const torch::Tensor error = network.forward(inputs.index_select(0, chosen)) - missed.index_select(0, chosen);
-        torch::matmul(error, parts).abs().mean().backward();
+        const torch::Tensor green = error.slice(1, 1, 2);
+        torch::cat({ torch::expm1(green), error.slice(1, 0, 1) - green, error.slice(1, 2, 3) - green }, 1)
+            .abs()
+            .mean()
+            .backward();
         adam.update(step, rate_factor(optimizer, step, settings.steps), adam.gradient_norm());
         progress(static_cast<double>(step + 1) / settings.steps);
     }

@@ -21,12 +21,13 @@ torch::Tensor masked_mean(const torch::Tensor& images, const torch::Tensor& mask
     return (images * mask).flatten(1).sum(1) / mask.expand_as(images).flatten(1).sum(1).clamp_min(1);
 }
 
-/// ln of the means of G, R/G and B/G, [N, 3]: errors of brightness are many times those of colour, and would hide them
-/// in sums over R, G and B.
-torch::Tensor log_means(const torch::Tensor& images)
+/// Errors of the means, [N, 3]: relative of G (which is what images differ by: twice too bright is worse than half as
+/// bright), of ln R/G, of ln B/G (errors of brightness are many times those of colour, and would hide them in R and B).
+torch::Tensor errors_of_means(const torch::Tensor& predicted, const torch::Tensor& truth)
 {
-    const torch::Tensor logs = images.mean({ 2, 3 }).clamp_min(kDarkest).log(), green = logs.slice(1, 1, 2);
-    return torch::cat({ green, logs.slice(1, 0, 1) - green, logs.slice(1, 2, 3) - green }, 1);
+    const auto logs = [](const torch::Tensor& images) { return images.mean({ 2, 3 }).clamp_min(kDarkest).log(); };
+    const torch::Tensor error = logs(predicted) - logs(truth), green = error.slice(1, 1, 2);
+    return torch::cat({ torch::expm1(green), error.slice(1, 0, 1) - green, error.slice(1, 2, 3) - green }, 1);
 }
 
 torch::Tensor directions(const torch::Tensor& images)
@@ -65,8 +66,7 @@ std::vector<LossTerm> loss_terms(const LossSettings& settings, const Compared& i
     if (images.processed.defined())
         add("forward", settings.forward, [&] { return mean_per_image((images.source - images.processed).abs()); });
     add("linear", settings.linear, [&] { return mean_per_image(error()); });
-    add("log_mean", settings.log_mean,
-        [&] { return (log_means(images.truth) - log_means(images.predicted)).abs().sum(1); });
+    add("means", settings.means, [&] { return errors_of_means(images.predicted, images.truth).abs().sum(1); });
     add("angle", settings.angle, [&] {
         const torch::Tensor difference = directions(images.truth) - directions(images.predicted);
         return mean_per_image((difference.square().sum(1) + 1e-8).sqrt());

@@ -13,7 +13,7 @@ struct LossSettings {
     double reverse = 1;
     double forward = 1;
     double linear = 0;
-    double log_mean = 0;
+    double means = 0;
     double angle = 0;
     double highlights = 0;
     double round_trip = 0;
@@ -27,7 +27,8 @@ struct LossSettings {
         v.number("reverse", reverse, 0, 1e3, "weight of |y^(1/gamma) - y'^(1/gamma)|, truth y, prediction y'");
         v.number("forward", forward, 0, 1e3, "weight of |x - f(y)|, photo x, forward pass f of the truth");
         v.number("linear", linear, 0, 1e3, "weight of |y - y'|");
-        v.number("log_mean", log_mean, 0, 1e3, "weight of |m - m'|, summed over ln of the means of G, R/G and B/G");
+        v.number("means", means, 0, 1e3,
+                 "weight of the errors of image means, summed: |m'/m - 1| of green, |ln m'/m| of R/G and of B/G");
         v.number("angle", angle, 0, 1e3, "weight of |y/|y| - y'/|y'||: about the angle between colours, in radians");
         v.number("highlights", highlights, 0, 1e3, "weight of |y - y'| where the truth exceeds 0.8");
         v.number("round_trip", round_trip, 0, 1e3, "weight of |x - f(y')|");
@@ -35,7 +36,7 @@ struct LossSettings {
         v.flag("brightness_matched", brightness_matched,
                "the terms reverse, linear, highlights and forward compare with the truth's mean of green: its error, "
                "which no image "
-               "tells, would drown that of colour and tone; log_mean is left to teach it");
+               "tells, would drown that of colour and tone; means is left to teach it");
         v.number("gamma", gamma, 1, 4, "gamma under which RAW is compared in the term 'reverse'");
         v.number("floor", floor, 1e-8, 1e-2,
                  "RAW values are raised to this before the gamma, whose slope at 0 is infinite");
