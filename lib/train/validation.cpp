@@ -20,7 +20,7 @@ Validation validation_of(const Scores& scores, const std::string& score)
         return validation_of(scores, "all");
     result.psnr /= groups;
     result.angle /= groups;
-    result.score = result.psnr;
+    result.score = result.psnr - result.angle;
     result.details = score_json(scores);
     return result;
 }

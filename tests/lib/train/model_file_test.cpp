@@ -139,7 +139,8 @@ TEST_CASE("what no tool can run is saved too, and only the trainer reads it")
         CHECK(torch::equal(model->reverse(source, reference), loaded(path).model->reverse(source, reference)));
         Expected<std::unique_ptr<ModelData>> refused = parse_model(contents(path), "model");
         REQUIRE(!refused);
-        CHECK(refused.error().message == "model: metadata 'format' is 'srisp-baseline-1', must be 'srisp-1' or 'srisp-2'");
+        CHECK(refused.error().message ==
+              "model: metadata 'format' is 'srisp-baseline-1', must be 'srisp-1' or 'srisp-2'");
     }
 }
 
