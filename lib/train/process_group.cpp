@@ -140,6 +140,26 @@ void ProcessGroup::broadcast(torch::Tensor) {}
 
 ProcessGroup::~ProcessGroup() = default;
 
+void ProcessGroup::rank_0_alone(const std::function<void(const std::function<void()>& still_there)>& work)
+{
+    using Clock = std::chrono::steady_clock;
+    torch::Tensor at_work = torch::ones({ 1 });
+    if (writes()) {
+        Clock::time_point last = Clock::now();
+        work([&] {
+            if (Clock::now() - last < std::chrono::seconds(1))
+                return;
+            broadcast(at_work);
+            last = Clock::now();
+        });
+        at_work.zero_();
+        broadcast(at_work);
+    } else {
+        while (at_work.item<float>() > 0)
+            broadcast(at_work);
+    }
+}
+
 void ProcessGroup::check_same(const std::string& text, const std::string& what)
 {
     // Bytes as floats: exact, and one kind of message is enough.

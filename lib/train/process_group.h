@@ -40,6 +40,9 @@ public:
     void sum(torch::Tensor tensor);
     /// Replaces a float tensor by that of rank 0.
     void broadcast(torch::Tensor tensor);
+    /// Rank 0 does `work`, the others wait until it has; `work` calls what it is given now and then, so that they know
+    /// that it has not ended, however long it takes.
+    void rank_0_alone(const std::function<void(const std::function<void()>& still_there)>& work);
     /// Throws unless `text` is the same everywhere; `what` is for the message ("recipe").
     void check_same(const std::string& text, const std::string& what);
 

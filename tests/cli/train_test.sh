@@ -8,8 +8,8 @@ train=$build/bin/srisptrain
 cat >tiny.json <<'RECIPE'
 {
     "base": "default", "description": "for tests", "pack": "pack", "steps": 8, "pairs": 2, "unpaired": 2,
-    "log_every": 1, "validate_every": 4, "data": { "image_size": 32 }, "anchor_fit": { "pairs": 32 },
-    "mean_teacher": { "start": 0.3 }, "validation": { "set": { "real_images": 1, "simulated_images": 2 } }
+    "log_every": 1, "validate_every": 4, "data": { "image_size": 32 }, "anchor_fit": { "pairs": 32, "steps": 20 },
+    "optimizer": { "rate": 1e-4, "dictionary_rate": 1e-4 }, "mean_teacher": { "start": 0.3 }, "validation": { "set": { "real_images": 1, "simulated_images": 2 } }
 }
 RECIPE
 
@@ -70,7 +70,7 @@ check "kill -9 loses no more than what came after the checkpoint" killed
 check "a finished training has nothing to do" says 0 "going on from step 8" "$train" tiny.json -o whole --threads 1
 
 check "a checkpoint of another recipe is not gone on from" says 1 \
-    "'whole/checkpoint.safetensors' is of another training: optimizer.rate is 0.001 there, 0.002 here; --restart starts again" \
+    "'whole/checkpoint.safetensors' is of another training: optimizer.rate is 0.0001 there, 0.002 here; --restart starts again" \
     "$train" tiny.json -o whole --set optimizer.rate=0.002
 restarted() {
     cp -r whole again

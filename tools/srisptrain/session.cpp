@@ -131,14 +131,17 @@ Session open_session(const Options& options)
     return session;
 }
 
-std::optional<AnchorFit> start_model(Session& session, bool quiet)
+std::optional<AnchorFit> start_model(Session& session, bool quiet, const std::function<void()>& still_there)
 {
     const Recipe& recipe = session.settings();
     if (!recipe.init.empty())
         return {};
     ProgressMeter meter("srisptrain: fitting the anchor", "%", 100, !quiet);
     return start_anchor(*session.model, *session.samples, recipe.anchor_fit, static_cast<std::uint64_t>(recipe.seed),
-                        [&meter](double part) { meter.show(static_cast<std::int64_t>(part * 100)); });
+                        [&](double part) {
+                            meter.show(static_cast<std::int64_t>(part * 100));
+                            still_there();
+                        });
 }
 
 } // namespace srisp

@@ -58,10 +58,12 @@ int train_model(Session& session, const Options& options)
         folder.emplace(recipe.output);
         if (!session.tests)
             host.note("no validation: " + session.tests_missing + "; the last model is kept");
-        if (options.restart || !find_checkpoint(recipe.output, recipe, session.pack->hash()))
-            if (const auto fit = start_model(session, options.quiet))
-                say_anchor(host, *fit);
     }
+    session.group->rank_0_alone([&](const std::function<void()>& still_there) {
+        if (options.restart || !find_checkpoint(recipe.output, recipe, session.pack->hash()))
+            if (const auto fit = start_model(session, options.quiet, still_there))
+                say_anchor(host, *fit);
+    });
     Trainer trainer(
         recipe.trainer, session.model, [&session] { return session.another(); }, session.samples, *session.group,
         session.device, static_cast<std::uint64_t>(recipe.seed));

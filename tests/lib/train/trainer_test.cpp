@@ -124,6 +124,27 @@ TEST_CASE("a step whose loss is not a number changes nothing")
     CHECK(trainer.sound());
 }
 
+TEST_CASE("the others wait for what rank 0 does alone, longer than their timeout")
+{
+    const std::string address = free_address();
+    bool done = false, done_when_released = false;
+    std::thread other([&] {
+        ProcessGroup group({ 2, 1, address, 2 });
+        group.rank_0_alone([](const auto&) { FAIL("rank 1 works"); });
+        done_when_released = done;
+    });
+    ProcessGroup group({ 2, 0, address, 2 });
+    group.rank_0_alone([&](const std::function<void()>& still_there) {
+        for (int i = 0; i < 35; ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            still_there();
+        }
+        done = true;
+    });
+    other.join();
+    CHECK(done_when_released);
+}
+
 TEST_CASE("two processes learn what one learns from the same batches")
 {
     ProcessGroup alone({});
