@@ -5,12 +5,15 @@
 #include <cmath>
 #include <vector>
 
+#include "statistics.h"
+
 namespace srisp {
 
 namespace {
 
 constexpr int kSide = 64; // to which a thumbnail is reduced, about
-constexpr double kDarkest = 1e-4, kClipped = 0.95;
+constexpr double kDarkest = 1e-4;
+constexpr float kClipped = 0.95f;
 constexpr double kQuantiles[] = { 0.02, 0.1, 0.25, 0.4, 0.5, 0.6, 0.75, 0.9, 0.97, 0.995 };
 
 /// Means over blocks of rows × columns pixels, whole blocks only.
@@ -30,14 +33,6 @@ std::vector<float> block_means(const float* plane, int height, int width)
     return means;
 }
 
-double interpolated(const std::vector<float>& sorted, double q)
-{
-    const double position = q * static_cast<double>(sorted.size() - 1);
-    const auto below = static_cast<std::size_t>(position);
-    const std::size_t above = std::min(below + 1, sorted.size() - 1);
-    return sorted[below] + (position - static_cast<double>(below)) * (double(sorted[above]) - sorted[below]);
-}
-
 } // namespace
 
 std::array<float, kQuantileFeatures> quantile_features(Planes image, int height, int width)
@@ -51,14 +46,13 @@ std::array<float, kQuantileFeatures> quantile_features(Planes image, int height,
 
     std::array<float, kQuantileFeatures> features;
     auto next = features.begin();
-    for (std::vector<float>& values : channels) {
-        std::sort(values.begin(), values.end());
+    for (std::vector<float>& values : channels)
         for (const double q : kQuantiles)
-            *next++ = static_cast<float>(std::log(std::max(interpolated(values, q), kDarkest)) * 0.5 + 1);
-    }
+            *next++ = static_cast<float>(std::log(std::max(quantile(values, q), kDarkest)) * 0.5 + 1);
     for (int c = 0; c < 3; ++c) {
-        const auto above = std::upper_bound(channels[c].begin(), channels[c].end(), static_cast<float>(kClipped));
-        *next++ = static_cast<float>(channels[c].end() - above) / static_cast<float>(channels[c].size());
+        const auto clipped =
+            std::count_if(channels[c].begin(), channels[c].end(), [](float v) { return v > kClipped; });
+        *next++ = static_cast<float>(clipped) / static_cast<float>(channels[c].size());
     }
     return features;
 }

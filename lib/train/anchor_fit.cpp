@@ -3,15 +3,16 @@
 
 #include <algorithm>
 
+#include "image_means.h"
 #include "image_statistics.h"
 #include "network.h"
+#include "optimizer.h"
 
 namespace srisp::train {
 
 namespace {
 
 constexpr int kBatch = 64, kStatistics = 12;
-constexpr double kDarkest = 1e-3;    // of a mean, as in the statistics
 constexpr double kSmallest = 1e-3;   // deviation of an input: some are the same in all images
 constexpr double kMakingPairs = 0.9; // part of the work
 
@@ -41,20 +42,17 @@ Rows collect(Samples& samples, int pairs, bool with_quantiles, const std::functi
     for (int done = 0, step = 0; done < pairs; ++step) {
         const int count = std::min(kBatch, pairs - done);
         const Batch batch = samples.batch(step, 0, count, 0, 0);
-        const torch::Tensor statistics =
-            torch::cat({ image_statistics(linear_source(batch.source)), image_statistics(batch.reference) }, 1);
-        inputs.push_back(
-            (with_quantiles ? anchor_inputs(statistics, batch.source, batch.reference) : statistics).cpu());
-        means.push_back(batch.truth.mean({ 2, 3 }).clamp_min(kDarkest).log().cpu());
+        const torch::Tensor source = linear_source(batch.source);
+        const torch::Tensor statistics = torch::cat({ image_statistics(source), image_statistics(batch.reference) }, 1);
+        inputs.push_back((with_quantiles ? anchor_inputs(statistics, source, batch.reference) : statistics).cpu());
+        means.push_back(log_means(batch.truth).cpu());
         done += count;
         progress(static_cast<double>(done) / pairs);
     }
     return { torch::cat(inputs), torch::cat(means) };
 }
 
-/// Adam on what the line misses: the relative error of G (which is what images differ by: twice too bright is worse
-/// than half as bright), and the error of ln R/G and ln B/G (errors of brightness are many times those of colour, and
-/// would hide them in R and B).
+/// Adam on what the line misses.
 void fit_network(AnchorNetwork& network, const Rows& rows, const AnchorFit& line, const AnchorFitSettings& settings,
                  std::uint64_t seed, const std::function<void(double)>& progress)
 {
@@ -65,15 +63,11 @@ void fit_network(AnchorNetwork& network, const Rows& rows, const AnchorFit& line
     const torch::Tensor inputs = (rows.inputs.to(device) - mean) / deviation;
     const torch::Tensor missed = (rows.log_means - line_of(line, rows.inputs)).to(device);
 
-    std::vector<torch::Tensor> matrices;
-    for (const torch::Tensor& parameter : network.parameters())
-        if (parameter.dim() == 2)
-            matrices.push_back(parameter);
     OptimizerSettings optimizer;
     optimizer.rate = settings.rate;
     optimizer.weight_decay = settings.weight_decay;
     const torch::Tensor none = torch::zeros_like(parameters.values());
-    Adam adam(optimizer, parameters, none, none, parameters.mask_of(matrices));
+    Adam adam(optimizer, parameters, none, none, parameters.mask_of(weights_of(network)));
 
     at::Generator generator = at::detail::createCPUGenerator(seed);
     for (int step = 0; step < settings.steps; ++step) {
@@ -81,11 +75,7 @@ void fit_network(AnchorNetwork& network, const Rows& rows, const AnchorFit& line
             torch::randint(inputs.size(0), { settings.batch }, generator, torch::kLong).to(device);
         parameters.gradients().zero_();
         const torch::Tensor error = network.forward(inputs.index_select(0, chosen)) - missed.index_select(0, chosen);
-        const torch::Tensor green = error.slice(1, 1, 2);
-        torch::cat({ torch::expm1(green), error.slice(1, 0, 1) - green, error.slice(1, 2, 3) - green }, 1)
-            .abs()
-            .mean()
-            .backward();
+        errors_of_means(error).abs().mean().backward();
         adam.update(step, rate_factor(optimizer, step, settings.steps), adam.gradient_norm());
         progress(static_cast<double>(step + 1) / settings.steps);
     }

@@ -4,7 +4,6 @@
 #include <functional>
 #include <optional>
 
-#include "optimizer.h"
 #include "samples.h"
 #include "unprocessor.h"
 

@@ -12,10 +12,10 @@ constexpr double kFirstOutput = 0.1; // part of the usual scale: the line comes 
 
 } // namespace
 
-torch::Tensor anchor_inputs(const torch::Tensor& statistics, const torch::Tensor& source,
+torch::Tensor anchor_inputs(const torch::Tensor& statistics, const torch::Tensor& linear_source,
                             const torch::Tensor& reference)
 {
-    return torch::cat({ statistics, image_quantiles(linear_source(source)), image_quantiles(reference) }, 1);
+    return torch::cat({ statistics, image_quantiles(linear_source), image_quantiles(reference) }, 1);
 }
 
 AnchorNetwork::AnchorNetwork(InitialWeights& initial)

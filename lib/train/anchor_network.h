@@ -5,9 +5,9 @@
 
 namespace srisp::train {
 
-/// What the anchor's network sees of a source (display-encoded) and a reference (linear), [N, 110]: their twelve
+/// What the anchor's network sees of a source (made linear) and a reference, [N, 110]: their twelve
 /// statistics each, [N, 24] (the anchor's line sees these alone), then their 43 quantile features each.
-torch::Tensor anchor_inputs(const torch::Tensor& statistics, const torch::Tensor& source,
+torch::Tensor anchor_inputs(const torch::Tensor& statistics, const torch::Tensor& linear_source,
                             const torch::Tensor& reference);
 
 constexpr int kAnchorStatistics = 24, kAnchorInputs = 110;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "losses.h"
 
+#include "image_means.h"
+
 namespace srisp::train {
 
 namespace {
 
 constexpr double kHighlight = 0.8; // of method.md, section 5
 constexpr double kWhite = 0.98;    // every channel of the photo at or above it
-constexpr double kDarkest = 1e-3;  // of a mean, as in the statistics
 constexpr double kShortest = 1e-3; // of a pixel's vector: the colour of what is darker does not matter
 
 torch::Tensor mean_per_image(const torch::Tensor& images)
@@ -21,15 +22,6 @@ torch::Tensor masked_mean(const torch::Tensor& images, const torch::Tensor& mask
     return (images * mask).flatten(1).sum(1) / mask.expand_as(images).flatten(1).sum(1).clamp_min(1);
 }
 
-/// Errors of the means, [N, 3]: relative of G (which is what images differ by: twice too bright is worse than half as
-/// bright), of ln R/G, of ln B/G (errors of brightness are many times those of colour, and would hide them in R and B).
-torch::Tensor errors_of_means(const torch::Tensor& predicted, const torch::Tensor& truth)
-{
-    const auto logs = [](const torch::Tensor& images) { return images.mean({ 2, 3 }).clamp_min(kDarkest).log(); };
-    const torch::Tensor error = logs(predicted) - logs(truth), green = error.slice(1, 1, 2);
-    return torch::cat({ torch::expm1(green), error.slice(1, 0, 1) - green, error.slice(1, 2, 3) - green }, 1);
-}
-
 torch::Tensor directions(const torch::Tensor& images)
 {
     return images / (images.square().sum(1, true) + kShortest * kShortest).sqrt();
@@ -39,7 +31,9 @@ torch::Tensor directions(const torch::Tensor& images)
 
 torch::Tensor brightness_ratio(const torch::Tensor& others, const torch::Tensor& images)
 {
-    const auto green = [](const torch::Tensor& v) { return v.slice(1, 1, 2).mean({ 2, 3 }, true).clamp_min(kDarkest); };
+    const auto green = [](const torch::Tensor& v) {
+        return v.slice(1, 1, 2).mean({ 2, 3 }, true).clamp_min(kDarkestMean);
+    };
     return green(others) / green(images);
 }
 
@@ -66,7 +60,8 @@ std::vector<LossTerm> loss_terms(const LossSettings& settings, const Compared& i
     if (images.processed.defined())
         add("forward", settings.forward, [&] { return mean_per_image((images.source - images.processed).abs()); });
     add("linear", settings.linear, [&] { return mean_per_image(error()); });
-    add("means", settings.means, [&] { return errors_of_means(images.predicted, images.truth).abs().sum(1); });
+    add("means", settings.means,
+        [&] { return errors_of_means(log_means(images.predicted) - log_means(images.truth)).abs().sum(1); });
     add("angle", settings.angle, [&] {
         const torch::Tensor difference = directions(images.truth) - directions(images.predicted);
         return mean_per_image((difference.square().sum(1) + 1e-8).sqrt());

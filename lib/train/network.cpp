@@ -120,8 +120,8 @@ private:
     void encode_images()
     {
         if (m_network.m_source_statistics || m_network.m_anchor) {
-            const torch::Tensor linear = linear_source(m_source);
-            m_source_statistics = image_statistics(linear);
+            m_linear_source = linear_source(m_source);
+            m_source_statistics = image_statistics(m_linear_source);
             m_reference_statistics = image_statistics(m_reference);
             note("source_statistics", m_source_statistics);
             note("reference_statistics", m_reference_statistics);
@@ -189,7 +189,7 @@ private:
         const torch::Tensor line = m_network.m_anchor->affine(statistics);
         if (!m_network.m_anchor_network)
             return line;
-        return line + m_network.m_anchor_network->forward(anchor_inputs(statistics, m_source, m_reference));
+        return line + m_network.m_anchor_network->forward(anchor_inputs(statistics, m_linear_source, m_reference));
     }
 
     /// b_c = mean of the running image / predicted mean of the RAW [method 2, anchor]
@@ -236,7 +236,7 @@ private:
     const Dictionaries& m_atoms;
     const std::int64_t m_images;
     const torch::Tensor m_source, m_reference;
-    torch::Tensor m_running, m_source_statistics, m_reference_statistics, m_fused;
+    torch::Tensor m_running, m_linear_source, m_source_statistics, m_reference_statistics, m_fused;
     Choice& m_choice;
     Trace* m_trace;
 };

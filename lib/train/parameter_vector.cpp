@@ -37,4 +37,13 @@ torch::Tensor ParameterVector::mask_of(const std::vector<torch::Tensor>& chosen)
     return mask;
 }
 
+std::vector<torch::Tensor> weights_of(const torch::nn::Module& module)
+{
+    std::vector<torch::Tensor> weights;
+    for (const torch::Tensor& parameter : module.parameters())
+        if (parameter.dim() >= 2)
+            weights.push_back(parameter);
+    return weights;
+}
+
 } // namespace srisp::train

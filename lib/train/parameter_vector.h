@@ -35,4 +35,7 @@ private:
     std::string m_layout;
 };
 
+/// The parameters of a module that are matrices or convolutions: these decay; biases and single numbers do not.
+std::vector<torch::Tensor> weights_of(const torch::nn::Module& module);
+
 } // namespace srisp::train

@@ -38,16 +38,6 @@ SampleSlice slice_of(const TrainerSettings& settings, const ProcessGroup& group)
                     : std::numeric_limits<std::int64_t>::max() };
 }
 
-/// Matrices and convolutions decay; biases and single numbers do not.
-torch::Tensor decayed_elements(torch::nn::Module& module, const ParameterVector& parameters)
-{
-    std::vector<torch::Tensor> decayed;
-    for (const torch::Tensor& parameter : module.parameters())
-        if (parameter.dim() >= 2)
-            decayed.push_back(parameter);
-    return parameters.mask_of(decayed);
-}
-
 torch::Tensor joined(const torch::Tensor& first, const torch::Tensor& second)
 {
     return second.defined() ? torch::cat({ first, second }) : first;
@@ -68,7 +58,7 @@ Trainer::Trainer(const TrainerSettings& settings, std::shared_ptr<Unprocessor> m
       m_samples(std::move(samples), m_slice, device.is_cuda()), m_student(std::move(model)), m_parameters(*m_student),
       m_teacher(make(), m_parameters.values()), m_averaged(make(), m_parameters.values()),
       m_adam(settings.optimizer, m_parameters, m_parameters.mask_of(m_student->dictionary_parameters()),
-             m_parameters.mask_of(m_student->anchor_parameters()), decayed_elements(*m_student, m_parameters))
+             m_parameters.mask_of(m_student->anchor_parameters()), m_parameters.mask_of(weights_of(*m_student)))
 {
     m_student->train();
 }
@@ -107,12 +97,12 @@ Trainer::Pass Trainer::learn(const Batch& batch)
 {
     Choice choice;
     Compared images{ batch.source, batch.truth, m_student->reverse(batch.source, batch.reference, &choice), {}, {} };
-    // What the forward pass is given: the truth, as bright as the model takes it to be.
-    const auto shown = [this](const torch::Tensor& truth, const torch::Tensor& predicted) {
-        return m_settings.loss.brightness_matched ? (truth * brightness_ratio(predicted, truth)).clamp_max(1) : truth;
-    };
-    if (m_settings.loss.forward > 0)
-        images.processed = m_student->process(shown(batch.truth, images.predicted), choice);
+    if (m_settings.loss.forward > 0) {
+        torch::Tensor shown = batch.truth;
+        if (m_settings.loss.brightness_matched) // the truth, as bright as the model takes it to be
+            shown = (shown * brightness_ratio(images.predicted, shown)).clamp_max(1);
+        images.processed = m_student->process(shown, choice);
+    }
     if (needs_round_trip(m_settings.loss))
         images.round_trip = m_student->process(images.predicted, choice);
 

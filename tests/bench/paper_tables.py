@@ -3,10 +3,11 @@
 """Does the paper's claim hold here? Trains every row of its tables with the same data and budget, several seeds each,
 tests all on the same images, and prints the table and the paper's relations, each marked reproduced or not.
 
-    python3 tests/bench/paper_tables.py --pack pack --out tables [--steps 1500] [--seeds 2] [--threads 1]
+    python3 tests/bench/paper_tables.py --pack pack --out tables [--steps 1500] [--seeds 2] [--jobs 1]
 
 A run that is stopped (Ctrl-C) goes on where it was with the same command. --print-only: the table of what is there."""
 import argparse
+import concurrent.futures
 import json
 import os
 import statistics
@@ -68,12 +69,12 @@ def folder_of(options, row, seed):
 
 
 def train(options, row, recipe, seed):
-    common = [f"seed={seed}", f"steps={options.steps}", f"validate_every={options.steps}", "pairs=8",
+    common = [f"seed={seed}", f"steps={options.steps}", f"validate_every={options.steps}", "pairs=4",
               "validation.set.real_images=1", "validation.set.simulated_images=1", "anchor_fit.pairs=8000"]
-    settings = common + (["unpaired=4"] if recipe[0] in ("default", "paper", "no_dps", "merged_gain", "static_tone",
+    settings = common + (["unpaired=2"] if recipe[0] in ("default", "paper", "no_dps", "merged_gain", "static_tone",
                                                          "tone_1x1", "mt_real_reference") else ["unpaired=0"])
     command = [options.bin + "/srisptrain", recipe[0], "--pack", options.pack, "-o", folder_of(options, row, seed),
-               "--threads", str(options.threads), "-q"]
+               "--threads", "1", "-q"]
     for setting in settings + recipe[1:]:
         command += ["--set", setting]
     subprocess.run(command, check=True)
@@ -88,7 +89,7 @@ def evaluate(options, row, seed):
             return json.load(file)
     model = ["--baseline", row.replace(" ", "_")] if row in UNTRAINED else [folder + "/best.safetensors"]
     output = subprocess.run([options.bin + "/srispeval", "--pack", options.pack, *model, "--json", "-q", "--threads",
-                             str(options.threads), "--set", "unpaired_photos=60"],
+                             "1", "--set", "unpaired_photos=60"],
                             check=True, stdout=subprocess.PIPE).stdout
     scores = json.loads(output)[0]["scores"]
     os.makedirs(folder, exist_ok=True)
@@ -149,6 +150,17 @@ def print_relations(found):
         print(text + f"{statistics.mean(first):.3f} / {statistics.mean(second):.3f} | {verdict} |")
 
 
+def scores_of(options, row, recipe, seed):
+    """Trains and tests one row where that has not been done; None where it is only to be printed and is not there."""
+    scores = os.path.exists(os.path.join(folder_of(options, row, seed), "scores.json"))
+    if not scores and options.print_only:
+        return None
+    if not scores and recipe:
+        print(f"{row}, seed {seed}", file=sys.stderr, flush=True)
+        train(options, row, recipe, seed)
+    return measures(evaluate(options, row, seed))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--pack", required=True, help="made by srisppack of photos, RAW images and cameras")
@@ -156,26 +168,24 @@ def main():
     parser.add_argument("--bin", default="build/bin", help="folder of srisptrain and srispeval")
     parser.add_argument("--steps", type=int, default=1500)
     parser.add_argument("--seeds", type=int, default=2)
-    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=1, help="rows at a time, of one thread each")
     parser.add_argument("--print-only", action="store_true", help="train nothing")
     options = parser.parse_args()
+    runs = [(name, None, 1) for name in UNTRAINED]
+    runs += [(name, recipe, seed) for seed in range(1, options.seeds + 1) for name, recipe in ROWS]
     found = {}
+    pool = concurrent.futures.ThreadPoolExecutor(options.jobs)
     try:
-        for seed in range(1, options.seeds + 1):
-            for row, recipe in [(name, None) for name in UNTRAINED] + ROWS:
-                if recipe is None and seed > 1:
-                    continue
-                scores = os.path.exists(os.path.join(folder_of(options, row, seed), "scores.json"))
-                if not scores and options.print_only:
-                    continue
-                if not scores and recipe:
-                    print(f"{row}, seed {seed}", file=sys.stderr, flush=True)
-                    train(options, row, recipe, seed)
-                found.setdefault(row, []).append(measures(evaluate(options, row, seed)))
+        waiting = [pool.submit(scores_of, options, *run) for run in runs]
+        for (row, _, _), scores in zip(runs, waiting):
+            if scores.result():
+                found.setdefault(row, []).append(scores.result())
     except subprocess.CalledProcessError as error:
         sys.exit(f"paper_tables: {error.cmd[0]} ended with {error.returncode}; the same command goes on from there")
     except KeyboardInterrupt:
         sys.exit("paper_tables: stopped; the same command goes on from there")
+    finally:
+        pool.shutdown(cancel_futures=True)
     print_table(found)
     print_relations(found)
 
