@@ -6,10 +6,10 @@
 #include <thread>
 
 #include <OpenImageIO/imageio.h>
-#include <OpenImageIO/parallel.h>
 #include <srisp/model.h>
 
 #include "model_data.h"
+#include "parallel.h"
 #include "tone_map.h"
 
 namespace srisp {
@@ -149,7 +149,7 @@ void run_tiles(const Pipeline& p, const Job& job, int threads, Progress& progres
         }
     };
     const int workers = std::min(threads, grid.count());
-    OIIO::parallel_for(std::int64_t(0), std::int64_t(workers), work, OIIO::paropt(workers));
+    parallel_tasks(workers, workers, work);
 }
 
 /// Where source and target share memory: band by band from a copy, whose upper neighbours were copied before the band

@@ -10,11 +10,14 @@ namespace srisp {
 /// finite).
 constexpr int kRowSlack = 64;
 
+/// Outputs whose weights lie side by side; the most that a kernel computes at once.
+constexpr int kWeightGroup = 4, kWidestBlock = 8;
+
 /// A convolution layer with its weights in the order in which the kernel reads them.
 struct PackedConvolution {
     int inputs = 0, outputs = 0, taps = 0; ///< channels in and out; taps = kernel height × width (1 or 9)
-    std::vector<float> weights;            ///< [output / 4][input][tap][4], missing outputs are 0
-    std::vector<float> bias;               ///< [output], padded to a multiple of 4 with 0
+    std::vector<float> weights;            ///< [output / 4][input][tap][4], padded to a multiple of kWidestBlock with 0
+    std::vector<float> bias;               ///< [output], padded likewise
 };
 
 /// `weights`: [output, input, ky, kx]; `bias`: [output].
