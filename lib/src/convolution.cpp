@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "convolution.cpp"
@@ -11,79 +10,14 @@
 // After foreach_target, which compiles the following once per instruction set.
 #include <hwy/highway.h>
 
+#include "convolution_blocks-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace srisp {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::ScalableTag<float>;
-using V = hn::Vec<D>;
-
-// A block is kOutputs channels × kVectors vectors of pixels, whose sums stay in registers. Each tap loads kVectors
-// pixels and broadcasts kOutputs weights for kOutputs × kVectors FMAs. Two FMAs start per cycle, and two loads (an
-// unaligned one counts twice where it straddles cache lines); 10 independent sums hide the latency of an FMA, 4–5
-// cycles. 16 registers (AVX2): 12 sums, 3 pixels, 1 weight; 7 loads for 12 FMAs. 32 registers of 64 bytes (AVX-512),
-// where nearly every unaligned load straddles: 8 × 3 takes 11 loads for 24. A layer of 3 outputs gets a shape in which
-// none is padding.
-#if HWY_TARGET <= HWY_AVX3
-constexpr int kBlockOutputs = 8;
-#else
-constexpr int kBlockOutputs = 4;
-#endif
-constexpr int kBlockVectors = 3;
-
-template<int kOutputs, int kVectors>
-HWY_INLINE void block(const PackedConvolution& layer, const ConvolutionRow& row, int output, int x)
-{
-    const D d;
-    const int n = static_cast<int>(hn::Lanes(d));
-    const std::ptrdiff_t group = std::ptrdiff_t(kWeightGroup) * layer.inputs * layer.taps;
-    const float* HWY_RESTRICT w = layer.weights.data() + output / kWeightGroup * group;
-    V sums[kOutputs][kVectors];
-    for (int o = 0; o < kOutputs; ++o)
-        for (int k = 0; k < kVectors; ++k)
-            sums[o][k] = hn::Set(d, layer.bias[output + o]);
-    for (int i = 0; i < layer.inputs; ++i) {
-        const std::ptrdiff_t offset = i * row.in_plane_stride + x;
-        for (int t = 0; t < layer.taps; ++t, w += kWeightGroup) {
-            const float* HWY_RESTRICT in = row.taps[t] + offset;
-            V pixels[kVectors];
-            for (int k = 0; k < kVectors; ++k)
-                pixels[k] = hn::LoadU(d, in + k * n);
-            for (int o = 0; o < kOutputs; ++o) {
-                const V weight = hn::Set(d, w[o / kWeightGroup * group + o % kWeightGroup]);
-                for (int k = 0; k < kVectors; ++k)
-                    sums[o][k] = hn::MulAdd(weight, pixels[k], sums[o][k]);
-            }
-        }
-    }
-    const V lowest = hn::Set(d, row.relu ? 0.0f : -std::numeric_limits<float>::infinity());
-    for (int o = 0; o < kOutputs && output + o < layer.outputs; ++o)
-        for (int k = 0; k < kVectors; ++k)
-            hn::StoreU(hn::Max(sums[o][k], lowest), d, row.out + (output + o) * row.out_plane_stride + x + k * n);
-}
-
-// Pixels outside, outputs inside: the inputs of one pixel block (9–15 KB for 32 channels) stay in L1 while the weights
-// (37 KB) stream from L2, 37 KB for every 13,800 cycles of arithmetic.
-template<int kOutputs, int kVectors>
-HWY_INLINE void whole_row(const PackedConvolution& layer, const ConvolutionRow& row)
-{
-    const int n = static_cast<int>(hn::Lanes(D()));
-    int x = 0;
-    for (; row.width - x > (kVectors - 1) * n; x += kVectors * n)
-        for (int output = 0; output < layer.outputs; output += kOutputs)
-            block<kOutputs, kVectors>(layer, row, output, x);
-    for (; x < row.width; x += n)
-        for (int output = 0; output < layer.outputs; output += kOutputs)
-            block<kOutputs, 1>(layer, row, output, x);
-}
-
 void convolve_row(const PackedConvolution& layer, const ConvolutionRow& row)
 {
-    if (layer.outputs <= 3)
-        whole_row<3, 3>(layer, row);
-    else
-        whole_row<kBlockOutputs, kBlockVectors>(layer, row);
+    convolve_blocks(layer, row);
 }
 
 } // namespace HWY_NAMESPACE
@@ -115,17 +49,18 @@ void convolve_row_scalar(const PackedConvolution& layer, const ConvolutionRow& r
         }
 }
 
-PackedConvolution pack_convolution(const float* weights, const float* bias, int outputs, int inputs, int taps)
+PackedConvolution pack_convolution(const ConvolutionWeights& weights)
 {
+    const int outputs = weights.outputs, inputs = weights.inputs, taps = weights.taps;
     PackedConvolution packed{ inputs, outputs, taps, {}, {} };
     const int padded = (outputs + kWidestBlock - 1) / kWidestBlock * kWidestBlock;
     packed.weights.assign(std::size_t(padded) * inputs * taps, 0.0f);
     packed.bias.assign(padded, 0.0f);
-    std::copy_n(bias, outputs, packed.bias.begin());
+    std::copy(weights.bias.begin(), weights.bias.end(), packed.bias.begin());
     for (int o = 0; o < outputs; ++o)
         for (int it = 0; it < inputs * taps; ++it)
             packed.weights[(std::size_t(o / kWeightGroup) * inputs * taps + it) * kWeightGroup + o % kWeightGroup] =
-                weights[o * inputs * taps + it];
+                weights.weight[o * inputs * taps + it];
     return packed;
 }
 

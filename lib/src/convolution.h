@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "model_data.h"
+
 namespace srisp {
 
 /// Floats that `convolve_row` may read and write past the end of a row (values there do not matter, but must be
@@ -20,8 +22,7 @@ struct PackedConvolution {
     std::vector<float> bias;               ///< [output], padded likewise
 };
 
-/// `weights`: [output, input, ky, kx]; `bias`: [output].
-PackedConvolution pack_convolution(const float* weights, const float* bias, int outputs, int inputs, int taps);
+PackedConvolution pack_convolution(const ConvolutionWeights& weights);
 
 /// Where one output row takes its inputs from and where it goes. Channels are planes.
 struct ConvolutionRow {

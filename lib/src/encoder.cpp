@@ -34,8 +34,7 @@ const float* StridedInput::tap(int y, int ky, int kx) const
 template<class Take>
 static void convolve(const ConvolutionWeights& weights, const StridedInput& input, bool relu, Take take)
 {
-    const PackedConvolution layer =
-        pack_convolution(weights.weight.data(), weights.bias.data(), weights.outputs, weights.inputs, weights.taps);
+    const PackedConvolution layer = pack_convolution(weights);
     const int size = input.size() / 2;
     const std::ptrdiff_t stride = size + kRowSlack;
     std::vector<float> out(stride * weights.outputs);
