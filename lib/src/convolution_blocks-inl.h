@@ -33,6 +33,7 @@ constexpr int kBlockOutputs = 8;
 constexpr int kBlockOutputs = 4;
 #endif
 constexpr int kBlockVectors = 3;
+static_assert(kBlockVectors == 3, "whole_row has a shape for what is left of a block: 1 or 2 vectors");
 
 template<int kOutputs, int kVectors>
 HWY_INLINE void block(const PackedConvolution& layer, const ConvolutionRow& row, int output, int x)
@@ -65,28 +66,39 @@ HWY_INLINE void block(const PackedConvolution& layer, const ConvolutionRow& row,
             hn::StoreU(hn::Max(sums[o][k], lowest), d, row.out + (output + o) * row.out_plane_stride + x + k * n);
 }
 
-// Pixels outside, outputs inside: the inputs of one pixel block (9–15 KB for 32 channels) stay in L1 while the weights
-// (37 KB) stream from L2, 37 KB for every 13,800 cycles of arithmetic.
+/// All outputs of kVectors vectors of pixels.
 template<int kOutputs, int kVectors>
+HWY_INLINE void all_outputs(const PackedConvolution& layer, const ConvolutionRow& row, int x)
+{
+    for (int output = 0; output < layer.outputs; output += kOutputs)
+        block<kOutputs, kVectors>(layer, row, output, x);
+}
+
+// Pixels outside, outputs inside: the inputs of one pixel block (9–15 KB for 32 channels) stay in L1 while the weights
+// (37 KB) stream from L2, 37 KB for every 13,800 cycles of arithmetic. The end of a row, and rows of few pixels, take
+// narrower blocks, with enough outputs to hide the latency.
+template<int kOutputs, int kOutputsAtEnd>
 HWY_INLINE void whole_row(const PackedConvolution& layer, const ConvolutionRow& row)
 {
     const int n = static_cast<int>(hn::Lanes(D()));
     int x = 0;
-    for (; row.width - x > (kVectors - 1) * n; x += kVectors * n)
-        for (int output = 0; output < layer.outputs; output += kOutputs)
-            block<kOutputs, kVectors>(layer, row, output, x);
-    for (; x < row.width; x += n)
-        for (int output = 0; output < layer.outputs; output += kOutputs)
-            block<kOutputs, 1>(layer, row, output, x);
+    for (; row.width - x > (kBlockVectors - 1) * n; x += kBlockVectors * n)
+        all_outputs<kOutputs, kBlockVectors>(layer, row, x);
+    if (row.width - x > n) {
+        all_outputs<kOutputs, 2>(layer, row, x);
+        x += 2 * n;
+    }
+    if (row.width > x)
+        all_outputs<kOutputsAtEnd, 1>(layer, row, x);
 }
 
 /// What convolve_row does, in the best shape for the layer.
 HWY_INLINE void convolve_blocks(const PackedConvolution& layer, const ConvolutionRow& row)
 {
     if (layer.outputs <= 3)
-        whole_row<3, kBlockVectors>(layer, row);
+        whole_row<3, 3>(layer, row);
     else
-        whole_row<kBlockOutputs, kBlockVectors>(layer, row);
+        whole_row<kBlockOutputs, kWidestBlock>(layer, row);
 }
 
 } // namespace HWY_NAMESPACE
