@@ -19,7 +19,7 @@ public:
                 { RowRing(l == 0 ? kToneLayers + 1 : 3, tone_map.layer(l).inputs, tone_map.max_tile_width()), 0 });
     }
 
-    void run(Roi roi, int width, int height, const LoadRow& load, const StoreRow& store) override
+    void run(Roi roi, int width, int height, LoadRow load, StoreRow store) override
     {
         const ImageTile tile{ roi, width, height };
         for (int l = 0; l < kToneLayers; ++l)
@@ -56,7 +56,7 @@ private:
     }
 
     /// The next row of what goes into `layer`: from the image (layer 0) or from the layer before.
-    void compute_row(int layer, const ImageTile& tile, const LoadRow& load)
+    void compute_row(int layer, const ImageTile& tile, LoadRow load)
     {
         Input& input = m_inputs[layer];
         const int y = input.next_row++;
@@ -70,7 +70,7 @@ private:
         tile.replicate_edges(input.rows, y, beside);
     }
 
-    void compute_rows_up_to(int layer, int y, const ImageTile& tile, const LoadRow& load)
+    void compute_rows_up_to(int layer, int y, const ImageTile& tile, LoadRow load)
     {
         for (Input& input = m_inputs[layer]; input.next_row <= y;) {
             if (layer > 0)

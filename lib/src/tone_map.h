@@ -2,10 +2,10 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <memory>
 #include <vector>
 
+#include <OpenImageIO/function_view.h>
 #include <srisp/apply.h>
 #include <srisp/image.h>
 
@@ -22,14 +22,14 @@ public:
     virtual ~ToneMapRunner() = default;
 
     /// Fills columns [x0, x1) of row y: the first pixel goes to plane(c)[0].
-    using LoadRow = std::function<void(int y, int x0, int x1, Planes row)>;
+    using LoadRow = OIIO::function_view<void(int y, int x0, int x1, Planes row)>;
     /// Takes row y of the tile: plane(c)[0] is column tile.x0. The planes have kRowSlack floats of room and may be
     /// changed.
-    using StoreRow = std::function<void(int y, Planes row)>;
+    using StoreRow = OIIO::function_view<void(int y, Planes row)>;
 
     /// `tile`: part of an image of width × height pixels, at most ToneMap::max_tile_width() wide. `load` is called once
     /// per row, from top to bottom, for the tile and the halo around it as far as the image goes.
-    virtual void run(Roi tile, int width, int height, const LoadRow& load, const StoreRow& store) = 0;
+    virtual void run(Roi tile, int width, int height, LoadRow load, StoreRow store) = 0;
 };
 
 /// φ, ready to run: kernels mixed and packed. Immutable.

@@ -37,7 +37,7 @@ public:
             m_rings.emplace_back(kWinogradInputs, features, width);
     }
 
-    void run(Roi roi, int width, int height, const LoadRow& load, const StoreRow& store) override
+    void run(Roi roi, int width, int height, LoadRow load, StoreRow store) override
     {
         const ImageTile tile{ roi, width, height };
         const int first_group = group_of(roi.y0), last_group = group_of(roi.y1 - 1);
@@ -68,7 +68,7 @@ private:
         convolve_row(layer, row);
     }
 
-    void compute_first(int y, const ImageTile& tile, const LoadRow& load)
+    void compute_first(int y, const ImageTile& tile, LoadRow load)
     {
         for (; m_next_image_row <= tile.clamp_row(y + 1); ++m_next_image_row) {
             const int x0 = tile.first_column(4), x1 = tile.end_column(4);
@@ -98,7 +98,7 @@ private:
             tile.replicate_edges(to, y + k, beside);
     }
 
-    void compute_last(int y, const ImageTile& tile, const StoreRow& store)
+    void compute_last(int y, const ImageTile& tile, StoreRow store)
     {
         convolve(m_tone_map.last(), kToneLayers - 1, y, 0, tile.width_px(), m_out.planes().data, m_out.planes().stride,
                  false, tile);

@@ -29,4 +29,5 @@ BenchLines bench_apply(const BenchSettings& settings);
 BenchLines bench_sizes(const BenchSettings& settings);
 BenchLines bench_select(const BenchSettings& settings);
 BenchLines bench_reference(const BenchSettings& settings);
+BenchLines bench_torch(const BenchSettings& settings);
 BenchLines bench_commands(const BenchSettings& settings);

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <srisp/apply.h>
+#include <srisp/model.h>
+
+#include "random_model.h"
+
+// Sanitizers bring an operator new of their own.
+#ifndef __SANITIZE_ADDRESS__
+
+static std::atomic<long> allocations{ 0 };
+
+void* operator new(std::size_t size)
+{
+    ++allocations;
+    if (void* memory = std::malloc(size))
+        return memory;
+    throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept
+{
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept
+{
+    std::free(memory);
+}
+
+using namespace srisp;
+
+TEST_CASE("more tiles need no more allocations")
+{
+    ScratchFolder folder;
+    const auto model = Model::load(random_model(3, 1).write(folder.path("random.safetensors")));
+    REQUIRE(model);
+    Parameters parameters;
+    parameters.model_hash = (*model)->hash();
+    parameters.tone_weights.fill({ 0.1f, 0.3f, 0.2f, 0.25f, 0.15f });
+    parameters.gamma = 2.2f;
+    parameters.color = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+    parameters.white_balance = { 2, 1, 1.5f };
+    parameters.gain = 1.3f;
+    for (const Precision precision : { Precision::float32, Precision::fast }) {
+        const auto applier = Applier::create(**model, parameters, Direction::reverse, precision);
+        REQUIRE(applier);
+        const auto allocations_of = [&](int width, int height) {
+            std::vector<float> in(std::size_t(3) * width * height, 0.5f), out(in.size());
+            const MutableImageView source{ in.data(), width, height, 3, std::ptrdiff_t(3) * width };
+            const MutableImageView target{ out.data(), width, height, 3, std::ptrdiff_t(3) * width };
+            ApplyOptions options;
+            options.threads = 1;
+            const long before = allocations;
+            REQUIRE((*applier)->run(source, target, options));
+            return allocations - before;
+        };
+        const long few = allocations_of(40, 40);
+        CHECK(few > 0);
+        CHECK(allocations_of(400, 600) == few);
+    }
+}
+
+#endif
