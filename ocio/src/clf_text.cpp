@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "clf_text.h"
 
+#include <algorithm>
 #include <charconv>
 
 namespace srisp {
@@ -14,30 +15,6 @@ template<class Number> void add_number(std::string& text, Number value)
 {
     char digits[40];
     text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-}
-
-/// What XML cannot hold (control characters) becomes '?'.
-std::string escaped(const std::string& text)
-{
-    std::string result;
-    for (const char c : text)
-        switch (c) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '>':
-            result += "&gt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        default:
-            result += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
-        }
-    return result;
 }
 
 template<class Values> void add_rows(std::string& text, const Values& values, std::size_t columns)
@@ -103,12 +80,35 @@ void add_operator(std::string& text, const Cube& cube)
 
 } // namespace
 
+std::string clf_escaped(const std::string& text)
+{
+    std::string result;
+    for (const char c : text)
+        switch (c) {
+        case '&':
+            result += "&amp;";
+            break;
+        case '<':
+            result += "&lt;";
+            break;
+        case '>':
+            result += "&gt;";
+            break;
+        case '"':
+            result += "&quot;";
+            break;
+        default:
+            result += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+        }
+    return result;
+}
+
 std::string clf_text(const Operators& operators, const ClfLabel& label)
 {
     std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ProcessList compCLFversion=\"3\" id=\"" +
-                       escaped(label.id) + "\" name=\"" + escaped(label.name) + "\">\n";
+                       clf_escaped(label.id) + "\" name=\"" + clf_escaped(label.name) + "\">\n";
     for (const std::string& description : label.descriptions)
-        text += "    <Description>" + escaped(description) + "</Description>\n";
+        text += "    <Description>" + clf_escaped(description) + "</Description>\n";
     for (const Operator& op : operators)
         std::visit([&](const auto& each) { add_operator(text, each); }, op);
     return text + "</ProcessList>\n";

@@ -12,4 +12,7 @@ namespace srisp {
 /// A CLF file. (OpenColorIO writes them, too, but takes seconds for a cube of 65³.)
 std::string clf_text(const Operators& operators, const ClfLabel& label);
 
+/// A text inside of a CLF file. What XML cannot hold (control characters) becomes '?'.
+std::string clf_escaped(const std::string& text);
+
 } // namespace srisp
