@@ -80,7 +80,7 @@ add_library(srispbake_parts STATIC
     srispbake/photo_sample.cpp
     srispbake/report.cpp
     srispbake/watch.cpp)
-target_include_directories(srispbake_parts PRIVATE ${PROJECT_SOURCE_DIR}/lib/src)
+target_include_directories(srispbake_parts PUBLIC ${PROJECT_SOURCE_DIR}/lib/src ${PROJECT_SOURCE_DIR}/ocio/src)
 target_compile_definitions(srispbake_parts PUBLIC SRISP_VERSION="${PROJECT_VERSION}")
 target_link_libraries(srispbake_parts PUBLIC srisp_tools_common srisp_ocio_static CLI11::CLI11)
 

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <future>
 #include <memory>
 
 #include "../common/failure.h"
@@ -135,9 +136,13 @@ BakeSummary bake(const Options& options)
             if (!name.cube)
                 refuse_bake_of_another(name.path, absolute_path(options.reference));
     BakeSummary summary{ choice.photo ? choice.photo->name : "", choice.full ? choice.full->model->name() : "", {} };
-    std::vector<Baked> files;
+    std::vector<std::future<Baked>> bakes;
     for (const OutputName& name : names)
-        files.push_back(name.cube ? bake_cube(name, options, choice) : bake_clf(name, options, choice));
+        bakes.push_back(std::async(std::launch::async, name.cube ? bake_cube : bake_clf, std::cref(name),
+                                   std::cref(options), std::cref(choice)));
+    std::vector<Baked> files;
+    for (std::future<Baked>& each : bakes)
+        files.push_back(each.get());
     check_interrupt();
     write_files(files);
     for (Baked& file : files)

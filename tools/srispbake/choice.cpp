@@ -76,11 +76,16 @@ Choice make_choice(const Options& options)
         choice.photo = sample_of_thumbnail(neutral_rendition(*choice.reference), "the reference's neutral rendition");
         choice.photo_is_rendition = true;
     }
+    auto full = std::async(std::launch::async, [&]() -> std::optional<Chosen> {
+        const auto model = Model::load(kFullModel);
+        if (!model || (*model)->kernel_size() == 1)
+            return {};
+        return Chosen{ *model, chosen_parameters(**model, choice.photo->thumbnail, *choice.reference) };
+    });
     if (options.parameters.empty())
         choice.pointwise.parameters =
             chosen_parameters(*choice.pointwise.model, choice.photo->thumbnail, *choice.reference);
-    if (auto model = Model::load(kFullModel); model && (*model)->kernel_size() > 1)
-        choice.full = Chosen{ *model, chosen_parameters(**model, choice.photo->thumbnail, *choice.reference) };
+    choice.full = full.get();
     return choice;
 }
 
