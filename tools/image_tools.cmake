@@ -73,13 +73,17 @@ add_library(srispbake_parts STATIC
     srispbake/bake.cpp
     srispbake/bake_errors.cpp
     srispbake/choice.cpp
+    srispbake/config_entries.cpp
+    srispbake/config_fragment.cpp
     srispbake/cube_file.cpp
     srispbake/help.cpp
+    srispbake/linear_srgb.cpp
     srispbake/options.cpp
     srispbake/output_names.cpp
     srispbake/photo_sample.cpp
     srispbake/report.cpp
-    srispbake/watch.cpp)
+    srispbake/watch.cpp
+    srispbake/yaml_sections.cpp)
 target_include_directories(srispbake_parts PUBLIC ${PROJECT_SOURCE_DIR}/lib/src ${PROJECT_SOURCE_DIR}/ocio/src)
 target_compile_definitions(srispbake_parts PUBLIC SRISP_VERSION="${PROJECT_VERSION}")
 target_link_libraries(srispbake_parts PUBLIC srisp_tools_common srisp_ocio_static CLI11::CLI11)

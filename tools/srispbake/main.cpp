@@ -9,6 +9,7 @@
 #include "../common/failure.h"
 #include "../common/interrupt.h"
 #include "bake.h"
+#include "config_fragment.h"
 #include "help.h"
 #include "report.h"
 #include "watch.h"
@@ -68,6 +69,12 @@ int run(const Options& options)
         return 0;
     }
     check_options(options);
+    if (!options.fragment.empty()) {
+        const FragmentReport report = add_fragment(options.fragment, options.output, options.linear_srgb);
+        if (!options.quiet)
+            std::fputs(fragment_text(report).c_str(), stdout);
+        return 0;
+    }
     OIIO::attribute("threads", options.threads);
     watch_interrupts();
     if (const std::string warning = name_warning(options.reference); !warning.empty())
