@@ -91,10 +91,9 @@ void YamlSections::append(const std::string& section, const std::vector<std::str
         m_lines.erase(m_lines.begin() + std::ptrdiff_t(key) + 1);
         end = key + 1;
     } else {
-        const auto first =
-            std::find_if_not(m_lines.begin() + std::ptrdiff_t(key) + 1, m_lines.end(), is_blank_or_comment);
-        if (first != m_lines.end())
-            indent = indent_of(*first);
+        const auto last = m_lines.begin() + std::ptrdiff_t(end);
+        const auto first = std::find_if_not(m_lines.begin() + std::ptrdiff_t(key) + 1, last, is_blank_or_comment);
+        indent = first == last ? kIndent : indent_of(*first);
     }
     std::vector<std::string> added;
     for (const std::string& line : lines)

@@ -135,7 +135,10 @@ TEST_CASE("what cannot be extended is said, and nothing is written")
         CHECK(message.rfind(start, 0) == 0);
         return message.substr(std::min(message.size(), start.size()));
     };
-    CHECK(failure(std::string("ocio_profile_version: 1\n") + kStudio).find("profile version 1") != std::string::npos);
+    CHECK(
+        failure("ocio_profile_version: 1\nroles: {default: lin}\ndisplays:\n  d:\n    - !<View> {name: v, colorspace: "
+                "lin}\ncolorspaces:\n  - !<ColorSpace>\n    name: lin\n")
+            .find("has profile version 1;") == 0);
     CHECK(failure("") != "");
     CHECK(failure("{").find("rror") != std::string::npos);
     CHECK(failure(std::string(kHead) + kStudio, "ACEScgg").find("did you mean 'ACEScg'?") != std::string::npos);
