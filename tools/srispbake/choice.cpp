@@ -9,6 +9,7 @@
 #include "../common/failure.h"
 #include "../common/interrupt.h"
 #include "file_bytes.h"
+#include "printed_parameters.h"
 
 namespace srisp {
 
@@ -39,7 +40,7 @@ Parameters given_parameters(const std::string& path, const Model& model)
     auto text = read_head(path, kLargestParameters);
     if (!text)
         fail("parameters '" + path + "': " + text.error().message);
-    const Parameters parameters = require(parameters_from_json(*text, "parameters '" + path + "'"));
+    const Parameters parameters = require(parameters_from_json(without_image_name(*text), "'" + path + "'"));
     if (const Status fits = check_parameters(parameters, model); !fits)
         fail("parameters '" + path + "': " + fits.error().message +
              " (srisptool PHOTO --srisp-params:model=pointwise REFERENCE prints such)");
