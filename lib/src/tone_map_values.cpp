@@ -73,11 +73,13 @@ Status tone_map_values(const Model& model, const Parameters& parameters, Directi
         for (int l = 0; l < kToneLayers; ++l)
             layers[l] = mix_layer(dictionary[l], parameters.tone_weights[l]);
         const std::int64_t blocks = (count + kBlock - 1) / kBlock;
-        OIIO::parallel_for(std::int64_t(0), blocks, [&](std::int64_t block) {
+        const auto work = [&](std::int64_t block) {
             const std::int64_t first = block * kBlock;
             run_block(layers, rgb + 3 * first, static_cast<int>(std::min<std::int64_t>(kBlock, count - first)),
                       out + 3 * first);
-        });
+        };
+        // As few as one at a time: OpenImageIO's own choice is made for pixels, not for blocks of them.
+        OIIO::parallel_for(std::int64_t(0), blocks, work, OIIO::paropt(0, OIIO::paropt::SplitDir::Y, 1));
         return {};
     } catch (const std::exception& error) {
         return Error{ std::string("tone map: ") + error.what() };

@@ -12,6 +12,7 @@
 
 #include "fma_peak.h"
 #include "measuring.h"
+#include "ocio_speed.h"
 
 using namespace srisp;
 
@@ -79,7 +80,8 @@ nlohmann::ordered_json measure(const Settings& settings)
              { "apply_gmac_per_s", work / apply_s / 1e9 },
              { "apply_part_of_peak", work / apply_s / peak },
              { "apply_memory_beyond_image_mb", memory_mb("VmHWM:") - before_mb },
-             { "select_ms", select_s * 1e3 } };
+             { "select_ms", select_s * 1e3 },
+             { "ocio", measure_ocio(source, reference) } };
 }
 
 } // namespace
@@ -112,5 +114,6 @@ int main(int argc, char** argv)
         result["peak_gmac_per_s"].get<double>(), 100 * result["apply_part_of_peak"].get<double>(),
         result["apply_memory_beyond_image_mb"].get<double>());
     std::printf("select  %6.1f ms, one core, thumbnails given\n", result["select_ms"].get<double>());
+    std::printf("%s\n", ocio_line(result["ocio"]).c_str());
     return 0;
 }
