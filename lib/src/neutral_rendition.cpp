@@ -50,10 +50,12 @@ Thumbnail neutral_rendition(const Reference& reference)
 {
     Thumbnail picture = reference.thumbnail;
     const std::array<float, 3> balance = white_balance(reference);
+    // What is clipped in the RAW is white: no channel goes beyond where the first one clips.
+    const float clipped = *std::min_element(balance.begin(), balance.end());
     std::vector<float> means;
     for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
         for (int c = 0; c < 3; ++c)
-            picture.rgb[i + c] *= balance[c];
+            picture.rgb[i + c] = std::min(picture.rgb[i + c] * balance[c], clipped);
         means.push_back((picture.rgb[i] + picture.rgb[i + 1] + picture.rgb[i + 2]) / 3);
     }
     const auto bright = means.begin() + static_cast<std::ptrdiff_t>(kBright * (means.size() - 1));

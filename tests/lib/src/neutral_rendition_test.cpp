@@ -56,3 +56,14 @@ TEST_CASE("a camera's colours are brought to sRGB by its matrix")
     CHECK(plain.rgb[middle] == doctest::Approx(plain.rgb[middle + 1]).epsilon(1e-3));
     CHECK(std::abs(matrixed.rgb[middle] - matrixed.rgb[middle + 1]) > 0.03);
 }
+
+TEST_CASE("what is clipped in the RAW has no colour")
+{
+    Reference reference = ramp({ 0.5f, 1, 0.7f }, 1);
+    reference.facts.as_shot_neutral = { 0.5f, 1, 0.7f };
+    std::fill(reference.thumbnail.rgb.end() - 3000, reference.thumbnail.rgb.end(), 1.0f);
+    const Thumbnail picture = neutral_rendition(reference);
+    const std::size_t last = picture.rgb.size() - 3;
+    CHECK(picture.rgb[last] == doctest::Approx(picture.rgb[last + 1]).epsilon(1e-5));
+    CHECK(picture.rgb[last + 2] == doctest::Approx(picture.rgb[last + 1]).epsilon(1e-5));
+}
