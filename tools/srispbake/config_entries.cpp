@@ -63,6 +63,9 @@ std::vector<std::string> lines_of(const std::string& text)
 
 } // namespace
 
+const std::vector<AddedVariable> kAddedVariables = { { "SRISP_MODEL", "pointwise" },
+                                                     { "SRISP_REFERENCE", "srisp_neutral" },
+                                                     { "SRISP_SOURCE", "" } };
 const std::vector<std::string> kAddedLooks = { "srisp unprocess", "srisp process" };
 const std::vector<std::string> kAddedColorSpaces = { "srisp linear sRGB", "srisp sRGB", "srisp camera RGB",
                                                      "srisp process" };
@@ -102,7 +105,7 @@ ConfigEntries config_entries(const std::array<double, 9>& to_reference)
                                              "sdr-video",
                                              { kUnprocess, to },
                                              { from, kProcess } });
-    return { { "  SRISP_REFERENCE: srisp_neutral" }, lines_of(looks), lines_of(spaces) };
+    return { lines_of(looks), lines_of(spaces) };
 }
 
 } // namespace srisp

@@ -73,14 +73,28 @@ bool is_extended(const OCIO::ConstConfigRcPtr& config)
     return there != 0;
 }
 
+/// Those that the config does not declare.
+std::vector<AddedVariable> new_variables(const OCIO::ConstConfigRcPtr& config)
+{
+    std::vector<AddedVariable> variables = kAddedVariables;
+    for (int i = 0; i < config->getNumEnvironmentVars(); ++i) {
+        const std::string declared = config->getEnvironmentVarNameByIndex(i);
+        variables.erase(std::remove_if(variables.begin(), variables.end(),
+                                       [&](const AddedVariable& each) { return each.name == declared; }),
+                        variables.end());
+    }
+    return variables;
+}
+
 std::string extended_text(const std::string& text, const OCIO::ConstConfigRcPtr& config, const LinearSrgb& linear)
 {
     YamlSections sections(text);
     const ConfigEntries entries = config_entries(linear.to_reference);
-    // Where there is none, the host loads all variables by itself; with one, it would load no others any more.
-    const std::string declared = config->getEnvironmentVarDefault(kVariable);
-    if (sections.has("environment") && declared.empty())
-        sections.append("environment", entries.environment);
+    // Where there is no such section, the host loads all variables by itself; with one, it would load no others any
+    // more.
+    if (sections.has("environment"))
+        for (const AddedVariable& variable : new_variables(config))
+            sections.append("environment", { variable.line() });
     sections.append("looks", entries.looks);
     sections.append("colorspaces", entries.colorspaces);
     return sections.text();
@@ -101,8 +115,8 @@ std::string without_additions(const OCIO::ConstConfigRcPtr& extended, const OCIO
     config->clearLooks();
     for (const auto& look : looks)
         config->addLook(look);
-    if (!*original->getEnvironmentVarDefault(kVariable))
-        config->addEnvironmentVar(kVariable, nullptr);
+    for (const AddedVariable& variable : new_variables(original))
+        config->addEnvironmentVar(variable.name.c_str(), nullptr);
     return serialized(config);
 }
 

@@ -82,7 +82,7 @@ TEST_CASE("a config gets the looks and colour spaces, and every line that it had
     CHECK(report.neutral_folder == folder.path("luts"));
     CHECK(std::filesystem::exists(folder.path("luts/srisp_neutral.process.clf")));
     const std::string added = added_lines(original, text_of(config));
-    CHECK(added.rfind("  SRISP_REFERENCE: srisp_neutral\n", 0) == 0);
+    CHECK(added.rfind("  SRISP_MODEL: pointwise\n  SRISP_REFERENCE: srisp_neutral\n  SRISP_SOURCE: \"\"\n", 0) == 0);
     CHECK(added.find("name: srisp camera RGB") != std::string::npos);
 
     const auto loaded = OCIO::Config::CreateFromFile(config.c_str());
@@ -121,6 +121,38 @@ TEST_CASE("an environment section is added to, and never made")
     CHECK(text_of(folder.path("out.ocio")).find("environment:") == std::string::npos);
     CHECK(text_of(config) == original); // -o: the config itself stays
     CHECK(fragment_text(report).find("always set SRISP_REFERENCE") != std::string::npos);
+}
+
+TEST_CASE("variables that the config declares keep their values")
+{
+    const ScratchFolder folder;
+    const std::string original = std::string(kHead) +
+                                 "environment: {SRISP_REFERENCE: srisp_neutral, SRISP_MODEL: m, SRISP_SOURCE: s}\n" +
+                                 kStudio;
+    const std::string config = folder.file("c.ocio", original);
+    add_fragment(config, "", "");
+    CHECK(OCIO::Config::CreateFromFile(config.c_str())->getEnvironmentVarDefault("SRISP_MODEL") == std::string("m"));
+}
+
+TEST_CASE("the looks are those of our own config")
+{
+    const ScratchFolder folder;
+    const std::string path = folder.file("c.ocio", std::string(kHead) + kShot + kStudio);
+    add_fragment(path, "", "");
+    const auto config = OCIO::Config::CreateFromFile(path.c_str());
+    const auto own =
+        OCIO::Config::CreateFromFile((std::filesystem::path(SRISP_SOURCE_DIR) / "configs/ocio/srisp.ocio").c_str());
+    const auto source = [](const OCIO::ConstTransformRcPtr& transform) {
+        const auto file = std::dynamic_pointer_cast<const OCIO::FileTransform>(transform);
+        return file ? std::string(file->getSrc()) : "";
+    };
+    for (const char* name : { "srisp unprocess", "srisp process" }) {
+        const auto look = config->getLook(name), expected = own->getLook(name);
+        REQUIRE((look && expected));
+        CHECK(source(look->getTransform()) == source(expected->getTransform()));
+        CHECK(source(look->getInverseTransform()) == source(expected->getInverseTransform()));
+        CHECK(source(look->getTransform()) != source(look->getInverseTransform()));
+    }
 }
 
 TEST_CASE("what cannot be extended is said, and nothing is written")
