@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <OpenImageIO/parallel.h>
+#include "parallel.h"
 
 namespace srisp {
 
@@ -40,7 +40,7 @@ std::vector<float> convert_rows(const PhotoConverter& converter, const StoredRow
         converter.to_rgb(rows.values.data() + row * width * channels, width, rgb.data() + row * width * 3,
                          row_counts[row]);
     };
-    OIIO::parallel_for(std::int64_t(0), std::int64_t(count), convert, OIIO::paropt(threads));
+    parallel_tasks(count, threads, convert);
     for (int y = counted_y0; y < counted_y1; ++y)
         add(counts, row_counts[y - rows.y0]);
     return rgb;

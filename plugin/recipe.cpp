@@ -69,6 +69,15 @@ Status set_input(Recipe& recipe, const std::string& name)
     return {};
 }
 
+Status set_precision(Recipe& recipe, const std::string& name)
+{
+    const auto precision = precision_from_name(name);
+    if (!precision)
+        return precision.error();
+    recipe.precision = *precision;
+    return {};
+}
+
 Status set_action(Recipe& recipe, const std::string& name)
 {
     const std::map<std::string, Recipe::Action> actions = { { "apply", Recipe::Action::apply },
@@ -114,13 +123,10 @@ struct Setting {
     const char* key;
     Status (*set)(Recipe& recipe, const std::string& value);
 };
-const Setting kSettings[] = { { "reference", set_reference },
-                              { "model", set_model },
-                              { "params", read_parameters },
-                              { "input", set_input },
-                              { "seed", set_seed },
-                              { "direction", set_direction },
-                              { "lazy", set_lazy } };
+const Setting kSettings[] = { { "reference", set_reference }, { "model", set_model },
+                              { "params", read_parameters },  { "input", set_input },
+                              { "precision", set_precision }, { "seed", set_seed },
+                              { "direction", set_direction }, { "lazy", set_lazy } };
 
 /// One key of a recipe: how its value is taken.
 using Taker = std::function<Status(const json& value)>;
@@ -212,6 +218,7 @@ std::map<std::string, Taker> takers(Recipe& recipe, const fs::path& folder, bool
           }) },
         { "parameters", take_parameters(recipe, folder) },
         { "input", take_text([&](const std::string& name) { return set_input(recipe, name); }) },
+        { "precision", take_text([&](const std::string& name) { return set_precision(recipe, name); }) },
         { "seed", take_seed(recipe.seed) },
         { "hold", take_flag(recipe.hold) },
         { "progress", take_flag(recipe.progress) },

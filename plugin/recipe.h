@@ -22,6 +22,7 @@ struct Recipe {
     std::string parameters; ///< JSON text; empty: to be selected (reverse), or those recorded in the image (forward)
     std::string parameters_where; ///< what that text is called in messages
     InputEncoding input = InputEncoding::automatic;
+    Precision precision = Precision::float32;
     std::uint64_t seed = 0;
     bool lazy = false;     ///< opening reads headers only; metadata lacks parameters that must be selected
     bool hold = false;     ///< the first image's parameters hold for all later ones of this process
@@ -42,7 +43,7 @@ Expected<Recipe> recipe_from_json(const std::string& text, const std::string& pa
 /// Sets one value from a text: `key` is one of settable_keys(). Paths are relative to the working folder.
 Status set_by_text(Recipe& recipe, const std::string& key, const std::string& value);
 
-/// reference, model, params, input, seed, direction, lazy: what a query or a configuration hint may say.
+/// reference, model, params, input, precision, seed, direction, lazy: what a query or a configuration hint may say.
 const std::vector<std::string>& settable_keys();
 
 /// Whether parameters can be had at all. `where` names the recipe in the message.

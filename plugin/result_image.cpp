@@ -159,7 +159,8 @@ Expected<std::shared_ptr<BandReader>> ResultImage::band_reader(int subimage, int
             const auto chosen = choice(subimage, threads);
             if (!chosen)
                 return chosen.error();
-            auto created = Applier::create(*(*chosen)->model, (*chosen)->parameters, m_recipe.direction);
+            auto created =
+                Applier::create(*(*chosen)->model, (*chosen)->parameters, m_recipe.direction, m_recipe.precision);
             if (!created)
                 return Error{ m_source->name() + ": " + created.error().message };
             applier = *created;

@@ -6,17 +6,18 @@
 #include <thread>
 
 #include <OpenImageIO/imageio.h>
-#include <OpenImageIO/parallel.h>
 #include <srisp/model.h>
 
 #include "model_data.h"
+#include "near_names.h"
+#include "parallel.h"
 #include "tone_map.h"
 
 namespace srisp {
 
 /// The pipeline's blocks in one direction, ready to run.
 struct Pipeline {
-    ToneMap tone_map;
+    std::unique_ptr<const ToneMap> tone_map;
     Direction direction;
     Matrix3 color;                   // C (forward) or its inverse (reverse)
     float exponent;                  // 1/γ (forward) or γ (reverse)
@@ -25,9 +26,8 @@ struct Pipeline {
 
 namespace {
 
-constexpr int kTileRows = 128; // the rows computed twice at a tile's top and bottom cost as much as 3 of its rows
 constexpr int kMinTileRows = 16;
-constexpr int kBandRows = 256; // copied at a time where the target is the source
+constexpr int kBandRows = 512; // copied at a time where the target is the source; a tile at least
 
 /// What is to be computed, and from what.
 struct Job {
@@ -40,14 +40,14 @@ struct Job {
 /// The region cut into tiles: as few columns as the tone map's memory allows, all about equally wide.
 class TileGrid {
 public:
-    TileGrid(Roi roi, int threads) : m_roi(roi)
+    TileGrid(Roi roi, const ToneMap& tone_map, int threads) : m_roi(roi)
     {
         const int width = roi.x1 - roi.x0, height = roi.y1 - roi.y0;
-        m_columns = (width + RollingToneMap::kMaxTileWidth - 1) / RollingToneMap::kMaxTileWidth;
+        m_columns = (width + tone_map.max_tile_width() - 1) / tone_map.max_tile_width();
         m_tile_width = (width + m_columns - 1) / m_columns;
         // Enough tiles to keep all threads busy to the end.
         const int rows_wanted = (4 * threads + m_columns - 1) / m_columns;
-        m_tile_height = std::clamp((height + rows_wanted - 1) / rows_wanted, kMinTileRows, kTileRows);
+        m_tile_height = std::clamp((height + rows_wanted - 1) / rows_wanted, kMinTileRows, tone_map.good_tile_height());
         m_rows = (height + m_tile_height - 1) / m_tile_height;
     }
 
@@ -96,7 +96,7 @@ void before_tone_map(const Pipeline& p, Planes row, std::size_t count)
     power(row, row, count, p.exponent, 1e-8f, 0);
 }
 
-void run_tile(const Pipeline& p, RollingToneMap& runner, const Job& job, Roi tile)
+void run_tile(const Pipeline& p, ToneMapRunner& runner, const Job& job, Roi tile)
 {
     const auto load = [&](int y, int x0, int x1, Planes row) {
         gather(job.source.pixel(x0 - job.source_x, y - job.source_y), job.source.x_stride, x1 - x0, row);
@@ -138,31 +138,31 @@ private:
 /// Each worker takes the next tile until none is left, so a slow core holds nobody up.
 void run_tiles(const Pipeline& p, const Job& job, int threads, Progress& progress)
 {
-    const TileGrid grid(job.roi, threads);
+    const TileGrid grid(job.roi, *p.tone_map, threads);
     std::atomic<int> next{ 0 };
     const auto work = [&](std::int64_t) {
-        RollingToneMap runner(p.tone_map);
+        const std::unique_ptr<ToneMapRunner> runner = p.tone_map->make_runner();
         for (int i = next++; i < grid.count() && !progress.cancelled(); i = next++) {
             const Roi tile = grid.tile(i);
-            run_tile(p, runner, job, tile);
+            run_tile(p, *runner, job, tile);
             progress.add(std::int64_t(tile.x1 - tile.x0) * (tile.y1 - tile.y0));
         }
     };
     const int workers = std::min(threads, grid.count());
-    OIIO::parallel_for(std::int64_t(0), std::int64_t(workers), work, OIIO::paropt(workers));
+    parallel_tasks(workers, workers, work);
 }
 
 /// Where source and target share memory: band by band from a copy, whose upper neighbours were copied before the band
 /// above was overwritten.
 void run_in_place(const Pipeline& p, const Job& job, int threads, Progress& progress)
 {
-    const int halo = p.tone_map.halo();
+    const int halo = p.tone_map->halo(), band_rows = std::max(kBandRows, p.tone_map->good_tile_height());
     const int first_row = std::max(job.roi.y0 - halo, 0), last_row = std::min(job.roi.y1 + halo, job.full_height);
     const std::ptrdiff_t row_floats = std::ptrdiff_t(3) * job.source.width;
     std::vector<float> copy;
     int copied_from = first_row, copied_to = first_row;
-    for (int y0 = job.roi.y0; y0 < job.roi.y1 && !progress.cancelled(); y0 += kBandRows) {
-        const int y1 = std::min(y0 + kBandRows, job.roi.y1);
+    for (int y0 = job.roi.y0; y0 < job.roi.y1 && !progress.cancelled(); y0 += band_rows) {
+        const int y1 = std::min(y0 + band_rows, job.roi.y1);
         const int from = std::max(y0 - halo, first_row), to = std::min(y1 + halo, last_row);
         copy.erase(copy.begin(), copy.begin() + (from - copied_from) * row_floats);
         copy.resize((to - from) * row_floats);
@@ -216,16 +216,25 @@ Status check_job(const Job& job, int halo)
 
 } // namespace
 
+Expected<Precision> precision_from_name(const std::string& name)
+{
+    if (name == "float32")
+        return Precision::float32;
+    if (name == "fast")
+        return Precision::fast;
+    return Error{ "unknown precision '" + name + "'" + near_names(name, { "float32", "fast" }) };
+}
+
 Applier::Applier(std::unique_ptr<const Pipeline> pipeline) : m_pipeline(std::move(pipeline)) {}
 Applier::~Applier() = default;
 
 int Applier::halo() const
 {
-    return m_pipeline->tone_map.halo();
+    return m_pipeline->tone_map->halo();
 }
 
 Expected<std::shared_ptr<const Applier>> Applier::create(const Model& model, const Parameters& parameters,
-                                                         Direction direction)
+                                                         Direction direction, Precision precision)
 {
     if (Status status = check_parameters(parameters, model); !status)
         return status.error();
@@ -233,8 +242,8 @@ Expected<std::shared_ptr<const Applier>> Applier::create(const Model& model, con
         const bool reverse = direction == Direction::reverse;
         auto pipeline = std::make_unique<Pipeline>();
         pipeline->direction = direction;
-        pipeline->tone_map =
-            mix_tone_map(reverse ? model.data().tone_reverse : model.data().tone_forward, parameters.tone_weights);
+        pipeline->tone_map = mix_tone_map(reverse ? model.data().tone_reverse : model.data().tone_forward,
+                                          parameters.tone_weights, precision);
         pipeline->color = reverse ? inverse(parameters.color) : parameters.color;
         pipeline->exponent = reverse ? parameters.gamma : 1 / parameters.gamma;
         for (int c = 0; c < 3; ++c) {

@@ -4,21 +4,25 @@
 #include <cstddef>
 #include <vector>
 
+#include "model_data.h"
+
 namespace srisp {
 
 /// Floats that `convolve_row` may read and write past the end of a row (values there do not matter, but must be
 /// finite).
 constexpr int kRowSlack = 64;
 
+/// Outputs whose weights lie side by side; the most that a kernel computes at once.
+constexpr int kWeightGroup = 4, kWidestBlock = 8;
+
 /// A convolution layer with its weights in the order in which the kernel reads them.
 struct PackedConvolution {
     int inputs = 0, outputs = 0, taps = 0; ///< channels in and out; taps = kernel height × width (1 or 9)
-    std::vector<float> weights;            ///< [output / 4][input][tap][4], missing outputs are 0
-    std::vector<float> bias;               ///< [output], padded to a multiple of 4 with 0
+    std::vector<float> weights;            ///< [output / 4][input][tap][4], padded to a multiple of kWidestBlock with 0
+    std::vector<float> bias;               ///< [output], padded likewise
 };
 
-/// `weights`: [output, input, ky, kx]; `bias`: [output].
-PackedConvolution pack_convolution(const float* weights, const float* bias, int outputs, int inputs, int taps);
+PackedConvolution pack_convolution(const ConvolutionWeights& weights);
 
 /// Where one output row takes its inputs from and where it goes. Channels are planes.
 struct ConvolutionRow {

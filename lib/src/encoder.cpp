@@ -1,22 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace srisp {
 
 // A row is stored as [0, column 1, column 3, …][column 0, column 2, …]; output x needs columns 2x − 1, 2x, 2x + 1,
 // which are elements x of the first part, x of the second and x + 1 of the first. Row −1 is stored, and zero; no row
-// below is needed.
+// below is needed. What a kernel reads past the end of a row is the next one. Only what set_row does not write is set
+// here: zeroing megabytes takes as long as a layer.
 StridedInput::StridedInput(int channels, int size)
-    : m_channels(channels), m_size(size), m_half_stride(size / 2 + 1 + kRowSlack), m_row_stride(2 * m_half_stride),
-      m_plane_stride(m_row_stride * (size + 1)), m_values(m_plane_stride * channels)
+    : m_channels(channels), m_size(size), m_half_stride(size / 2 + 1), m_row_stride(2 * m_half_stride),
+      m_plane_stride(m_row_stride * (size + 1)), m_values(new float[m_plane_stride * channels + kRowSlack])
 {
+    for (int channel = 0; channel < channels; ++channel) {
+        float* const plane = m_values.get() + channel * m_plane_stride;
+        std::fill_n(plane, m_row_stride, 0.0f);
+        for (int y = 0; y < size; ++y) {
+            float* const row = plane + (y + 1) * m_row_stride;
+            row[0] = row[m_row_stride - 1] = 0;
+        }
+    }
+    std::fill_n(m_values.get() + m_plane_stride * channels, kRowSlack, 0.0f);
 }
 
 void StridedInput::set_row(int channel, int y, const float* values)
 {
-    float* odd = m_values.data() + channel * m_plane_stride + (y + 1) * m_row_stride + 1;
+    float* odd = m_values.get() + channel * m_plane_stride + (y + 1) * m_row_stride + 1;
     float* even = odd - 1 + m_half_stride;
     for (int x = 0; x < m_size / 2; ++x) {
         even[x] = values[2 * x];
@@ -26,7 +37,7 @@ void StridedInput::set_row(int channel, int y, const float* values)
 
 const float* StridedInput::tap(int y, int ky, int kx) const
 {
-    const float* row = m_values.data() + (2 * y + ky) * m_row_stride; // row 2y − 1 + ky, row −1 being the first
+    const float* row = m_values.get() + (2 * y + ky) * m_row_stride; // row 2y − 1 + ky, row −1 being the first
     return kx == 1 ? row + m_half_stride : row + kx / 2;
 }
 
@@ -34,8 +45,7 @@ const float* StridedInput::tap(int y, int ky, int kx) const
 template<class Take>
 static void convolve(const ConvolutionWeights& weights, const StridedInput& input, bool relu, Take take)
 {
-    const PackedConvolution layer =
-        pack_convolution(weights.weight.data(), weights.bias.data(), weights.outputs, weights.inputs, weights.taps);
+    const PackedConvolution layer = pack_convolution(weights);
     const int size = input.size() / 2;
     const std::ptrdiff_t stride = size + kRowSlack;
     std::vector<float> out(stride * weights.outputs);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "convolution.h"
@@ -12,7 +13,7 @@ namespace srisp {
 /// of neighbouring outputs are neighbours in memory and `convolve_row` serves here too.
 class StridedInput {
 public:
-    /// `size` × `size` pixels (even) in `channels` planes, all zero.
+    /// `size` × `size` pixels (even) in `channels` planes; set_row has to give all of them.
     StridedInput(int channels, int size);
 
     int channels() const { return m_channels; }
@@ -26,7 +27,7 @@ public:
 private:
     int m_channels, m_size;
     std::ptrdiff_t m_half_stride, m_row_stride, m_plane_stride;
-    std::vector<float> m_values;
+    std::unique_ptr<float[]> m_values;
 };
 
 /// Convolutions 3×3 with stride 2 and zero padding 1, ReLU on all but the last, then the mean over all pixels: one

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 
-#include <OpenImageIO/parallel.h>
 #include <srisp/thumbnail.h>
 
 #include "area_average.h"
+#include "parallel.h"
 
 namespace srisp {
 
@@ -59,7 +59,7 @@ Thumbnail average_mosaic(const RawPixels& pixels)
     const RowScaler scaler(pixels);
     const std::vector<Shares> rows = shares_by_cell(pixels.height), columns = shares_by_cell(pixels.width);
     Thumbnail thumbnail;
-    OIIO::parallel_for(0, kThumbnailSize, [&](std::int64_t y) {
+    parallel_tasks(kThumbnailSize, 0, [&](std::int64_t y) {
         average_mosaic_row(pixels, scaler, rows[std::size_t(y)], columns,
                            thumbnail.rgb.data() + std::size_t(y) * kThumbnailSize * 3);
     });

@@ -145,12 +145,12 @@ private:
 
     void apply_tone_map()
     {
-        const ToneMap tone_map = mix_tone_map(m_model.tone_reverse, m_parameters.tone_weights);
-        RollingToneMap runner(tone_map);
+        const auto tone_map = mix_tone_map(m_model.tone_reverse, m_parameters.tone_weights, Precision::fast);
+        const auto runner = tone_map->make_runner();
         PlanarThumbnail result;
         const Planes in = m_running.planes(), out = result.planes();
-        for (int x0 = 0; x0 < kThumbnailSize; x0 += RollingToneMap::kMaxTileWidth) {
-            const int x1 = std::min(x0 + RollingToneMap::kMaxTileWidth, kThumbnailSize);
+        for (int x0 = 0; x0 < kThumbnailSize; x0 += tone_map->max_tile_width()) {
+            const int x1 = std::min(x0 + tone_map->max_tile_width(), kThumbnailSize);
             const auto load = [&](int y, int begin, int end, Planes row) {
                 for (int c = 0; c < 3; ++c)
                     std::copy_n(in.plane(c) + y * kThumbnailSize + begin, end - begin, row.plane(c));
@@ -159,7 +159,7 @@ private:
                 for (int c = 0; c < 3; ++c)
                     std::copy_n(row.plane(c), x1 - x0, out.plane(c) + y * kThumbnailSize + x0);
             };
-            runner.run({ x0, x1, 0, kThumbnailSize }, kThumbnailSize, kThumbnailSize, load, store);
+            runner->run({ x0, x1, 0, kThumbnailSize }, kThumbnailSize, kThumbnailSize, load, store);
         }
         m_running = std::move(result);
     }

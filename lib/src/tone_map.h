@@ -3,40 +3,23 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <vector>
 
+#include <srisp/apply.h>
 #include <srisp/image.h>
 
-#include "convolution.h"
 #include "model_data.h"
 #include "pointwise.h"
 
 namespace srisp {
 
-/// Σ_k weights[k] · atom k of a dictionary layer, kernels and biases alike [P eq. 2, 5]; float32.
-ConvolutionWeights mix_layer(const ConvolutionWeights& dictionary, const std::vector<float>& weights);
-
-/// φ, ready to run: kernels mixed and packed.
-struct ToneMap {
-    std::array<PackedConvolution, kToneLayers> layers;
-    int radius = 1; ///< of one kernel: 1 (3×3) or 0 (1×1)
-
-    int halo() const { return radius * kToneLayers; }
-};
-
-ToneMap mix_tone_map(const ToneDictionary& dictionary, const std::array<std::vector<float>, kToneLayers>& weights);
-
 /// Computes clamp01(v + φ(v)) for tiles of an image, row by row: each layer keeps the last rows of its input, so
-/// activations stay in L2 and no row is computed twice. Every layer replicates the edge of its own input at the border
-/// of the image [method 1]. Holds the memory of one thread; nothing is allocated while it runs.
-class RollingToneMap {
+/// activations stay in L2. Every layer replicates the edge of its own input at the border of the image [method 1].
+/// Holds the memory of one thread; nothing is allocated while it runs.
+class ToneMapRunner {
 public:
-    /// Columns of a tile at most: with the neighbours that the two 32→32 layers need (190, 192), the widths are nearly
-    /// whole blocks of 3 vectors for 4, 8 and 16 lanes; three rows of three layers take 300 KB.
-    static constexpr int kMaxTileWidth = 188;
-
-    /// `tone_map` must outlive this object.
-    explicit RollingToneMap(const ToneMap& tone_map);
+    virtual ~ToneMapRunner() = default;
 
     /// Fills columns [x0, x1) of row y: the first pixel goes to plane(c)[0].
     using LoadRow = std::function<void(int y, int x0, int x1, Planes row)>;
@@ -44,29 +27,31 @@ public:
     /// changed.
     using StoreRow = std::function<void(int y, Planes row)>;
 
-    /// `tile`: part of an image of width × height pixels, at most kMaxTileWidth wide. `load` is called once per row,
-    /// from top to bottom, for the tile and the halo around it as far as the image goes.
-    void run(Roi tile, int width, int height, const LoadRow& load, const StoreRow& store);
-
-private:
-    /// The last rows of what goes into one layer.
-    struct Ring {
-        std::vector<float> memory;
-        int rows = 3;
-        std::ptrdiff_t row_stride = 0, plane_stride = 0;
-        int next_row = 0; ///< the first row that was not computed yet
-    };
-    struct Tile;
-
-    float* ring_pixel(int layer, int x, int y, const Tile& tile);
-    void compute_row(int layer, const Tile& tile, const LoadRow& load);
-    void compute_rows_up_to(int layer, int y, const Tile& tile, const LoadRow& load);
-    void convolve(int layer, int y, int x0, int x1, float* out, std::ptrdiff_t out_plane_stride, const Tile& tile);
-    void add_and_clamp(int y, const Tile& tile);
-
-    const ToneMap& m_tone_map;
-    std::array<Ring, kToneLayers> m_rings;
-    std::vector<float> m_out; // three planes of one row
+    /// `tile`: part of an image of width × height pixels, at most ToneMap::max_tile_width() wide. `load` is called once
+    /// per row, from top to bottom, for the tile and the halo around it as far as the image goes.
+    virtual void run(Roi tile, int width, int height, const LoadRow& load, const StoreRow& store) = 0;
 };
+
+/// φ, ready to run: kernels mixed and packed. Immutable.
+class ToneMap {
+public:
+    virtual ~ToneMap() = default;
+
+    /// Neighbours that a tile needs around it.
+    virtual int halo() const = 0;
+    virtual int max_tile_width() const = 0;
+    /// Rows of a tile that make what is computed twice at its top and bottom cheap.
+    virtual int good_tile_height() const = 0;
+    /// The runner must not outlive the tone map.
+    virtual std::unique_ptr<ToneMapRunner> make_runner() const = 0;
+};
+
+/// Σ_k weights[k] · atom k of a dictionary layer, kernels and biases alike [P eq. 2, 5]; float32.
+ConvolutionWeights mix_layer(const ConvolutionWeights& dictionary, const std::vector<float>& weights);
+
+/// Precision::fast makes a difference to kernels of 3×3 only.
+std::unique_ptr<const ToneMap> mix_tone_map(const ToneDictionary& dictionary,
+                                            const std::array<std::vector<float>, kToneLayers>& weights,
+                                            Precision precision);
 
 } // namespace srisp

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include <OpenImageIO/parallel.h>
 #include <srisp/model.h>
 
+#include "parallel.h"
 #include "tone_map.h"
 
 namespace srisp {
@@ -78,8 +78,7 @@ Status tone_map_values(const Model& model, const Parameters& parameters, Directi
             run_block(layers, rgb + 3 * first, static_cast<int>(std::min<std::int64_t>(kBlock, count - first)),
                       out + 3 * first);
         };
-        // As few as one at a time: OpenImageIO's own choice is made for pixels, not for blocks of them.
-        OIIO::parallel_for(std::int64_t(0), blocks, work, OIIO::paropt(0, OIIO::paropt::SplitDir::Y, 1));
+        parallel_tasks(blocks, 0, work);
         return {};
     } catch (const std::exception& error) {
         return Error{ std::string("tone map: ") + error.what() };

@@ -23,4 +23,20 @@ torch::Tensor dnd_rgb_to_camera()
     return row_normalized(torch::matmul(xyz_to_camera, rgb_to_xyz)).to(torch::kFloat32);
 }
 
+torch::Tensor dnd_color_matrices(int count, Randoms& randoms)
+{
+    const torch::Tensor matrices = inverse3x3(dnd_rgb_to_camera());
+    std::vector<std::int64_t> chosen;
+    for (Random& random : randoms) {
+        std::vector<std::int64_t> order{ 0, 1, 2, 3 };
+        for (int k = 0; k < count; ++k) {
+            const std::size_t place = k % order.size();
+            std::swap(order[place], order[place + random.integer(order.size() - place)]);
+            chosen.push_back(order[place]);
+        }
+    }
+    const auto images = static_cast<std::int64_t>(randoms.size());
+    return matrices.index_select(0, torch::tensor(chosen, torch::kLong)).view({ images, count, 3, 3 });
+}
+
 } // namespace srisp::train

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "dnd_cameras.h"
+
 namespace srisp::train {
 
 namespace {
@@ -84,8 +86,8 @@ void SampleMaker::check() const
     if (m_settings.raw_share > 0 && m_raws.empty())
         throw std::runtime_error("raw_share is " + std::to_string(m_settings.raw_share) +
                                  ", and the pack has no RAW images" + whose + " whose white balance is known");
-    // Real RAW images need simulated cameras, too: they are rendered with other cameras' matrices.
-    draw_capture(m_settings.simulation, m_cameras, false, Random(m_seed));
+    if (m_settings.raw_share < 1)
+        draw_capture(m_settings.simulation, m_cameras, false, Random(m_seed)); // throws where there is no camera
 }
 
 SampleMaker::Exposures SampleMaker::simulated(const Randoms& randoms, const std::vector<bool>& other_scene) const
@@ -133,8 +135,10 @@ SampleMaker::Exposures SampleMaker::real(const Randoms& randoms, const std::vect
     const auto count = static_cast<std::int64_t>(randoms.size());
     auto balances = torch::empty({ count, 3 });
     for (std::int64_t i = 0; i < count; ++i) {
-        captures.push_back(draw_capture(m_settings.simulation, m_cameras, false, randoms[i].fork(kCapture)));
-        captures.back().camera = -1;
+        if (m_cameras.can_train()) {
+            captures.push_back(draw_capture(m_settings.simulation, m_cameras, false, randoms[i].fork(kCapture)));
+            captures.back().camera = -1;
+        }
         Random scene = randoms[i].fork(kScene), other = randoms[i].fork(kOtherScene);
         entries.push_back(m_raws.draw(m_settings.whole_share, scene));
         others.push_back(other_scene[i] ? m_raws.draw_other(entries[i], true, m_settings.whole_share, other)
@@ -152,7 +156,9 @@ SampleMaker::Exposures SampleMaker::real(const Randoms& randoms, const std::vect
     result.reference_raw = (m_raws.images(others, m_device) * (factor * relight)).clamp(0, 1);
     auto matrix_randoms = fork(randoms, kMatrices);
     result.white_balance = balances;
-    result.others = other_color_matrices(m_cameras, captures, m_settings.isp.mixed_matrices, matrix_randoms);
+    result.others = captures.empty()
+                        ? dnd_color_matrices(m_settings.isp.mixed_matrices, matrix_randoms)
+                        : other_color_matrices(m_cameras, captures, m_settings.isp.mixed_matrices, matrix_randoms);
     result.color = result.others.select(1, 0).clone();
     for (std::int64_t i = 0; i < count; ++i)
         if (const auto& known = m_raws.entry(entries[i]).color; known != std::array<float, 9>{})

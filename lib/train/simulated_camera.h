@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -49,6 +50,8 @@ public:
 
     int count() const { return static_cast<int>(m_validation.size()); }
     const std::vector<bool>& validation() const { return m_validation; }
+    /// Whether there is one for training.
+    bool can_train() const { return std::find(m_validation.begin(), m_validation.end(), false) != m_validation.end(); }
     /// The light of the pack with this name; empty where there is none.
     Spectrum light(const std::string& name) const;
     Spectrum draw_light(const LightSettings& settings, Random& random) const;

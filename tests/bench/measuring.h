@@ -13,6 +13,12 @@ template<class Work> double seconds(const Work& work)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Lets VmHWM, the peak, start anew from what is in use now.
+inline void reset_peak_memory()
+{
+    std::ofstream("/proc/self/clear_refs") << "5";
+}
+
 /// A field of /proc/self/status ("VmHWM:"), in MB.
 inline double memory_mb(const std::string& field)
 {

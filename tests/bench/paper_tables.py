@@ -147,6 +147,8 @@ def print_relations(found):
         if measure == "angle":
             gain = -gain
         verdict = "yes" if gain > noise else "no" if gain < -noise else "within the spread"
+        if any(len(found[row]) < 2 for row in (better, worse) if row not in UNTRAINED):
+            verdict = "one run only"
         print(text + f"{statistics.mean(first):.3f} / {statistics.mean(second):.3f} | {verdict} |")
 
 

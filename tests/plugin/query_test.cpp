@@ -51,6 +51,7 @@ TEST_CASE("what a query cannot say is an error that lists the near ones")
     CHECK(has(refused("reference=a%2"), "no percent code"));
     CHECK(has(refused("reference"), "is not key=value"));
     CHECK(has(refused("input=sgrb"), "unknown input 'sgrb'"));
+    CHECK(refused("precision=fats") == "unknown precision 'fats'; did you mean 'fast'?");
     CHECK(has(refused("direction=back"), "unknown direction 'back'"));
     CHECK(has(refused("seed=-1"), "seed '-1' is not a whole number"));
     CHECK(has(refused("seed=99999999999999999999"), "is not a whole number"));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include "../common/progress_meter.h"
 #include "evaluation.h"
 #include "model_file.h"
+#include "model_files.h"
 #include "network.h"
 #include "process_setup.h"
 #include "settings_json.h"
@@ -75,7 +75,7 @@ means, "+ true gain" its mean: what is left is the error of colour and tone.
 true means. "ln mean error" is that of the brightness of green.
 
 Examples:
-  srispeval --pack pack configs/models/default.safetensors
+  srispeval --pack pack default pointwise
   srispeval --pack pack old.safetensors new.safetensors --baseline upi --json
   srispeval --pack pack model.safetensors --set thumbnail_px=256 --by-camera
 
@@ -96,8 +96,8 @@ std::vector<Method> load_methods(const Options& options)
         settings.method = name;
         methods.push_back({ name, make_unprocessor(settings, 0) });
     }
-    for (const std::string& path : options.models)
-        methods.push_back({ std::filesystem::path(path).stem().string(), require(load_model(path)).model });
+    for (const std::string& name : options.models)
+        methods.push_back({ model_name_of_path(name), require(load_model(require(find_model_file(name)))).model });
     return methods;
 }
 
@@ -135,7 +135,7 @@ int main(int argc, char** argv)
     CLI::App app{ "srispeval -- holds models against test images whose truth is known", "srispeval" };
     app.footer([] { return settings_text() + kExamples; });
     app.set_version_flag("--version", "srispeval " SRISP_VERSION);
-    app.add_option("models", options.models, "model files (.safetensors)");
+    app.add_option("models", options.models, "models: names or paths (.safetensors)");
     app.add_option("--pack", options.pack, "training pack, made by srisppack")->required();
     app.add_option("--baseline", options.baselines, "methods that need no model: gain_match, upi")
         ->delimiter(',')

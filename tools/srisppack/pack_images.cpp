@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <exception>
 
-#include <OpenImageIO/parallel.h>
-
 #include "../common/failure.h"
 #include "../common/interrupt.h"
+#include "parallel.h"
 
 namespace srisp {
 
@@ -38,8 +37,8 @@ std::vector<Expected<PackedScene>> run_batch(const std::vector<PackTask>& tasks,
                                              int threads)
 {
     std::vector<Expected<PackedScene>> results(count, PackedScene());
-    OIIO::parallel_for(
-        std::size_t(0), count, [&](std::size_t i) { results[i] = run_task(tasks[first + i]); }, OIIO::paropt(threads));
+    parallel_tasks(static_cast<std::int64_t>(count), threads,
+                   [&](std::int64_t i) { results[std::size_t(i)] = run_task(tasks[first + std::size_t(i)]); });
     check_interrupt();
     return results;
 }

@@ -29,6 +29,10 @@ void set_choice(nlohmann::json& job, const std::string& command, const std::stri
         if (value != "auto" && value != "srgb" && value != "linear")
             fail_usage(command + ": input is '" + value + "', must be auto, srgb or linear");
         job["input"] = value;
+    } else if (name == "precision") {
+        if (value != "float32" && value != "fast")
+            fail_usage(command + ": precision is '" + value + "', must be float32 or fast");
+        job["precision"] = value;
     } else if (name == "hold") {
         if (value != "0" && value != "1")
             fail_usage(command + ": hold is '" + value + "', must be 0 or 1");

@@ -13,11 +13,11 @@ static const std::vector<SrispCommand>& srisp_commands()
     static const std::vector<SrispCommand> commands = {
         { "srisp-unprocess",
           "REF",
-          { "model", "params", "input", "hold", "seed" },
+          { "model", "params", "input", "precision", "hold", "seed" },
           Effect::replaces,
           "reverse",
           "apply" },
-        { "srisp-process", nullptr, { "params", "model" }, Effect::replaces, "forward", "apply" },
+        { "srisp-process", nullptr, { "params", "model", "precision" }, Effect::replaces, "forward", "apply" },
         { "srisp-params", "REF", { "model", "input", "seed" }, Effect::reports, "reverse", "print" },
         { "srisp-save-params", "FILE", {}, Effect::reports, "reverse", "save" },
         { "srisp-help", nullptr, {}, Effect::helps, "", "" },

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 #include <srisp/expected.h>
 #include <srisp/export.h>
@@ -19,6 +20,15 @@ enum class Direction {
     forward  ///< RAW-like camera RGB → display-encoded sRGB ("process")
 };
 
+/// How the tone map of 3×3 kernels is computed; other blocks and kernels are the same in both.
+enum class Precision {
+    float32, ///< plain sums in float32
+    fast     ///< fewer multiply-adds, in float32 too: within 1e-4 of the above, 1e-6 on average
+};
+
+/// Reads "float32" or "fast"; an error names both.
+SRISP_API Expected<Precision> precision_from_name(const std::string& name);
+
 struct ApplyOptions {
     int threads = 0; ///< 0: all of OpenImageIO's threads; 1: the calling thread only
     /// Called from the calling thread with the part done (0 … 1); returning false cancels.
@@ -30,11 +40,12 @@ class SRISP_API Applier {
 public:
     /// `parameters` must belong to `model` (check_parameters); C must not be singular.
     static Expected<std::shared_ptr<const Applier>> create(const Model& model, const Parameters& parameters,
-                                                           Direction direction);
+                                                           Direction direction,
+                                                           Precision precision = Precision::float32);
     ~Applier();
 
-    /// Rows and columns of neighbours that a region of interest needs around it for exact results: 4 (spatial), 0
-    /// (pointwise).
+    /// Rows and columns of neighbours that a region of interest needs around it for exact results: 4 (spatial), 17
+    /// (spatial, fast), 0 (pointwise).
     int halo() const;
 
     /// Computes `roi` of the image. `source` is any part of the whole image, which is `full_width` × `full_height`

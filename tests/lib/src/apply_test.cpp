@@ -5,6 +5,7 @@
 #include <srisp/apply.h>
 #include <srisp/model.h>
 
+#include "each_target.h"
 #include "image_compare.h"
 #include "random_model.h"
 
@@ -48,9 +49,10 @@ struct Fixture {
         parameters.gain = 1.3f;
     }
 
-    std::shared_ptr<const Applier> applier(Direction direction = Direction::reverse) const
+    std::shared_ptr<const Applier> applier(Direction direction = Direction::reverse,
+                                           Precision precision = Precision::float32) const
     {
-        Expected<std::shared_ptr<const Applier>> result = Applier::create(*model, parameters, direction);
+        Expected<std::shared_ptr<const Applier>> result = Applier::create(*model, parameters, direction, precision);
         REQUIRE_MESSAGE(result, (result ? "" : result.error().message));
         return *result;
     }
@@ -111,18 +113,40 @@ TEST_CASE("the tone map equals a plain one in double, borders included")
     fixture.parameters.color = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
     fixture.parameters.gamma = fixture.parameters.gain = 1;
     fixture.parameters.white_balance = { 1, 1, 1 };
-    const Image source = random_image(7, 11);
-    const Difference difference =
-        compare(applied(*fixture.applier(), source).values, tone_mapped(fixture, source, random_model(3, 1)));
-    INFO(difference.text);
-    CHECK(difference.largest <= 1e-5);
+    const Image source = random_image(7, 27);
+    const std::vector<double> expected = tone_mapped(fixture, source, random_model(3, 1));
+    on_each_instruction_set([&] {
+        for (const Precision precision : { Precision::float32, Precision::fast }) {
+            const auto applier = fixture.applier(Direction::reverse, precision);
+            const Difference difference = compare(applied(*applier, source).values, expected);
+            INFO((precision == Precision::fast ? "fast: " : "float32: "), difference.text);
+            CHECK(difference.largest <= 1e-5);
+        }
+    });
+}
+
+TEST_CASE("fast stays within 1e-4 of float32, and is something else")
+{
+    const Fixture fixture;
+    for (const Direction direction : { Direction::reverse, Direction::forward }) {
+        const Image source = random_image(200, 300);
+        const Image plain = applied(*fixture.applier(direction), source);
+        const Image fast = applied(*fixture.applier(direction, Precision::fast), source);
+        const Difference difference = compare(fast.values, plain.values);
+        INFO(difference.text);
+        CHECK(difference.percentile_99_9 <= 1e-5);
+        CHECK(difference.largest <= 1e-4);
+        CHECK(difference.largest > 0);
+    }
+    CHECK(fixture.applier(Direction::reverse, Precision::fast)->halo() == 17);
+    CHECK(Fixture(1).applier(Direction::reverse, Precision::fast)->halo() == 0);
 }
 
 TEST_CASE("every size from 1 × 1 gives the same bits with any number of threads")
 {
     const Fixture fixture;
-    for (const Direction direction : { Direction::reverse, Direction::forward }) {
-        const auto applier = fixture.applier(direction);
+    for (const Precision precision : { Precision::float32, Precision::fast }) {
+        const auto applier = fixture.applier(Direction::reverse, precision);
         for (const auto& [width, height] :
              { std::pair(1, 1), std::pair(1, 300), std::pair(1000, 1), std::pair(2, 3), std::pair(9, 9),
                std::pair(187, 20), std::pair(189, 33), std::pair(401, 270) }) {
@@ -139,9 +163,10 @@ TEST_CASE("every size from 1 × 1 gives the same bits with any number of threads
 
 TEST_CASE("any region of interest, from any part of the image, has the bits of the whole")
 {
-    for (const int kernel_size : { 3, 1 }) {
+    for (const auto& [kernel_size, precision] :
+         { std::pair(3, Precision::float32), std::pair(3, Precision::fast), std::pair(1, Precision::float32) }) {
         const Fixture fixture(kernel_size);
-        const auto applier = fixture.applier();
+        const auto applier = fixture.applier(Direction::reverse, precision);
         Image source = random_image(300, 150);
         Image whole = applied(*applier, source);
         Random random(5);
@@ -158,7 +183,8 @@ TEST_CASE("any region of interest, from any part of the image, has the bits of t
             for (int y = 0; y < target.height; ++y)
                 same &= std::equal(target.view().pixel(0, y), target.view().pixel(0, y) + 3 * target.width,
                                    whole.view().pixel(roi.x0, roi.y0 + y));
-            INFO("region [", roi.x0, ", ", roi.x1, ") × [", roi.y0, ", ", roi.y1, "), kernel ", kernel_size);
+            INFO("region [", roi.x0, ", ", roi.x1, ") × [", roi.y0, ", ", roi.y1, "), kernel ", kernel_size, ", halo ",
+                 halo);
             CHECK(same);
         }
     }
@@ -167,12 +193,12 @@ TEST_CASE("any region of interest, from any part of the image, has the bits of t
 TEST_CASE("in place equals a copy, RGBA strides too")
 {
     const Fixture fixture;
-    for (const Direction direction : { Direction::reverse, Direction::forward }) {
-        const auto applier = fixture.applier(direction);
-        Image source = random_image(230, 700); // several bands of 256 rows
+    for (const Precision precision : { Precision::float32, Precision::fast }) {
+        const auto applier = fixture.applier(Direction::forward, precision);
+        Image source = random_image(230, 1100); // several bands
         const Image expected = applied(*applier, source);
-        Image rgba{ 230, 700, 4 };
-        for (int y = 0; y < 700; ++y)
+        Image rgba{ 230, 1100, 4 };
+        for (int y = 0; y < 1100; ++y)
             for (int x = 0; x < 230; ++x)
                 std::copy_n(source.view().pixel(x, y), 3, rgba.view().pixel(x, y));
         for (const int threads : { 1, 3 }) {
@@ -184,7 +210,7 @@ TEST_CASE("in place equals a copy, RGBA strides too")
         }
         REQUIRE(applier->run(rgba.view(), rgba.view()));
         bool same = true;
-        for (int y = 0; y < 700; ++y)
+        for (int y = 0; y < 1100; ++y)
             for (int x = 0; x < 230; ++x)
                 for (int c = 0; c < 3; ++c)
                     same &= rgba.view().pixel(x, y)[c] == expected.values[(std::size_t(y) * 230 + x) * 3 + c];

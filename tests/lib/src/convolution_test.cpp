@@ -33,7 +33,7 @@ template<class Kernel> std::vector<float> convolved(const Case& c, bool relu, Ke
     ConvolutionRow row{ {}, in_stride, out.data(), out_stride, c.width, relu };
     for (int t = 0; t < c.taps; ++t)
         row.taps[t] = in.data() + t / 3 * c.inputs * in_stride + t % 3;
-    kernel(pack_convolution(weights.data(), bias.data(), c.outputs, c.inputs, c.taps), row);
+    kernel(pack_convolution({ c.inputs, c.outputs, c.taps, weights, bias }), row);
     std::vector<float> used;
     for (int o = 0; o < c.outputs; ++o)
         used.insert(used.end(), out.begin() + o * out_stride, out.begin() + o * out_stride + c.width);
@@ -62,14 +62,14 @@ TEST_CASE("a kernel with one weight picks its own tap and channel")
     for (int tap = 0; tap < 9; ++tap) {
         std::vector<float> weights(2 * 3 * 9, 0.0f);
         weights[(1 * 3 + 2) * 9 + tap] = 2; // output 1 takes twice input 2 at this tap
-        const float bias[] = { 0.25f, 0 };
+        const std::vector<float> bias = { 0.25f, 0 };
         std::vector<float> in(3 * 9 * 2 * kRowSlack), out(2 * 2 * kRowSlack);
         for (std::size_t i = 0; i < in.size(); ++i)
             in[i] = static_cast<float>(i);
         ConvolutionRow row{ {}, 2 * kRowSlack, out.data(), 2 * kRowSlack, 4, false };
         for (int t = 0; t < 9; ++t)
             row.taps[t] = in.data() + t * 3 * 2 * kRowSlack;
-        convolve_row(pack_convolution(weights.data(), bias, 2, 3, 9), row);
+        convolve_row(pack_convolution({ 3, 2, 9, weights, bias }), row);
         for (int x = 0; x < 4; ++x) {
             CHECK(out[x] == 0.25f);
             CHECK(out[2 * kRowSlack + x] == 2 * row.taps[tap][2 * 2 * kRowSlack + x]);

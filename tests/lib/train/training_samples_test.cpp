@@ -257,3 +257,26 @@ TEST_CASE("samples that cannot be made are refused in words")
     CHECK_THROWS_WITH_AS(make_samples(settings, sources, 1), "the pack has no simulated camera for training",
                          std::runtime_error);
 }
+
+TEST_CASE("real RAW images alone are enough: other cameras' matrices are then published ones")
+{
+    const SmallPack pack;
+    SampleSources sources = pack.sources;
+    sources.photos = {};
+    sources.cameras = {};
+    DataSettings settings;
+    settings.raw_share = 1;
+    settings.open_only = false;
+    settings.image_size = 32;
+    const auto samples = make_samples(settings, sources, 1);
+    const Batch batch = samples->batch(0, 0, 6, 0, 0);
+    CHECK(batch.source.sizes() == at::IntArrayRef({ 6, 3, 32, 32 }));
+    for (const torch::Tensor& images : { batch.source, batch.truth, batch.reference }) {
+        CHECK(images.isfinite().all().item<bool>());
+        CHECK(images.amin().item<float>() >= 0);
+        CHECK(images.amax().item<float>() <= 1);
+        CHECK(images.std().item<float>() > 0.01);
+    }
+    CHECK(torch::equal(samples->batch(0, 2, 4, 0, 0).source, batch.source.slice(0, 2, 6)));
+    CHECK_FALSE(torch::equal(samples->batch(1, 0, 6, 0, 0).source, batch.source));
+}

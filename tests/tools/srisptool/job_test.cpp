@@ -29,7 +29,8 @@ TEST_CASE("a job holds what the command says, paths absolute")
     const std::filesystem::path before = std::filesystem::current_path();
     std::filesystem::current_path(scratch.path());
     const nlohmann::json found =
-        job({ "--srisp-unprocess:params=\"p:q.json\":model=pointwise:input=linear:seed=7:hold=1", "r #1.dng" });
+        job({ "--srisp-unprocess:params=\"p:q.json\":model=pointwise:input=linear:precision=fast:seed=7:hold=1",
+              "r #1.dng" });
     std::filesystem::current_path(before);
     CHECK(found == nlohmann::json{ { "format", "srisp-recipe-1" },
                                    { "direction", "reverse" },
@@ -37,6 +38,7 @@ TEST_CASE("a job holds what the command says, paths absolute")
                                    { "parameters", parameters },
                                    { "model", "pointwise" },
                                    { "input", "linear" },
+                                   { "precision", "fast" },
                                    { "seed", 7 },
                                    { "hold", true } });
     CHECK(job({ "--srisp-process" }) == nlohmann::json{ { "format", "srisp-recipe-1" }, { "direction", "forward" } });
@@ -81,7 +83,7 @@ TEST_CASE("wrong modifiers are wrong usage")
     CHECK(failure({ "--srisp-unprocess:modl=a", "-" }) ==
           "2: '--srisp-unprocess:modl=a': unknown modifier 'modl'; did you mean 'model'?");
     CHECK(failure({ "--srisp-process:hold=1" }) ==
-          "2: '--srisp-process:hold=1': unknown modifier 'hold'; known: params, model");
+          "2: '--srisp-process:hold=1': unknown modifier 'hold'; known: params, model, precision");
     CHECK(failure({ "--srisp-unprocess:input=raw", "-" }) ==
           "2: --srisp-unprocess: input is 'raw', must be auto, srgb or linear");
     CHECK(failure({ "--srisp-unprocess:hold=yes", "-" }) == "2: --srisp-unprocess: hold is 'yes', must be 0 or 1");
