@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "near_names.h"
+#include "printed_parameters.h"
 #include "text_file.h"
 
 namespace srisp {
@@ -46,10 +47,7 @@ Status read_parameters(Recipe& recipe, const std::string& path)
     auto text = read_text_file(path, kMostParameters);
     if (!text)
         return Error{ "parameters " + text.error().message };
-    recipe.parameters = *text;
-    // What --srisp-params printed may be replayed as it is: the image's name is there for people.
-    if (json printed = json::parse(*text, nullptr, false); printed.is_object() && printed.erase("image") > 0)
-        recipe.parameters = printed.dump();
+    recipe.parameters = without_image_name(*text);
     recipe.parameters_where = "parameters '" + path + "'";
     return {};
 }

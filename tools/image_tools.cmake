@@ -67,3 +67,28 @@ add_executable(srisppack srisppack/main.cpp)
 target_link_libraries(srisppack PRIVATE srisppack_parts)
 install(TARGETS srisppack DESTINATION ${CMAKE_INSTALL_BINDIR})
 srisp_man_page(srisppack --help)
+
+# All of srispbake but its main(), for the tests too.
+add_library(srispbake_parts STATIC
+    srispbake/bake.cpp
+    srispbake/bake_errors.cpp
+    srispbake/choice.cpp
+    srispbake/config_entries.cpp
+    srispbake/config_fragment.cpp
+    srispbake/cube_file.cpp
+    srispbake/help.cpp
+    srispbake/linear_srgb.cpp
+    srispbake/options.cpp
+    srispbake/output_names.cpp
+    srispbake/photo_sample.cpp
+    srispbake/report.cpp
+    srispbake/watch.cpp
+    srispbake/yaml_sections.cpp)
+target_include_directories(srispbake_parts PUBLIC ${PROJECT_SOURCE_DIR}/lib/src ${PROJECT_SOURCE_DIR}/ocio/src)
+target_compile_definitions(srispbake_parts PUBLIC SRISP_VERSION="${PROJECT_VERSION}")
+target_link_libraries(srispbake_parts PUBLIC srisp_tools_common srisp_ocio_static CLI11::CLI11)
+
+add_executable(srispbake srispbake/main.cpp)
+target_link_libraries(srispbake PRIVATE srispbake_parts)
+install(TARGETS srispbake DESTINATION ${CMAKE_INSTALL_BINDIR})
+srisp_man_page(srispbake --help)

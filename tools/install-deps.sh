@@ -8,12 +8,13 @@ set -eu
 
 packages="
     cmake g++ ninja-build pkg-config
-    doctest-dev libcli11-dev libhwy-dev libimath-dev liblcms2-dev libopenexr-dev libopenimageio-dev libraw-dev libtiff-dev
+    doctest-dev libcli11-dev libhwy-dev libimath-dev liblcms2-dev libopencolorio-dev libopenexr-dev libopenimageio-dev
+    libraw-dev libtiff-dev
     libxxhash-dev nlohmann-json3-dev
     openimageio-tools fonts-dejavu-core
 "
-test_packages="clang-format-14 dcraw libimage-exiftool-perl libraw-bin make man-db mount
-    python3 python3-numpy python3-openimageio"
+test_packages="clang-format-14 dcraw libgl1-mesa-dri libimage-exiftool-perl libraw-bin make man-db mount opencolorio-tools
+    python3 python3-numpy python3-openimageio python3-pyopencolorio xauth xvfb"
 trainer_packages="libgloo-dev libtorch-dev"
 case "$#${1:-}" in
     0) packages="$packages $trainer_packages $test_packages" ;;

@@ -30,4 +30,5 @@ BenchLines bench_sizes(const BenchSettings& settings);
 BenchLines bench_select(const BenchSettings& settings);
 BenchLines bench_reference(const BenchSettings& settings);
 BenchLines bench_torch(const BenchSettings& settings);
+BenchLines bench_ocio(const BenchSettings& settings);
 BenchLines bench_commands(const BenchSettings& settings);

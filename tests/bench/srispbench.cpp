@@ -16,10 +16,9 @@ struct Part {
     BenchLines (*measure)(const BenchSettings&);
 };
 
-constexpr Part kParts[] = {
-    { "apply", bench_apply },         { "sizes", bench_sizes }, { "select", bench_select },
-    { "reference", bench_reference }, { "torch", bench_torch }, { "commands", bench_commands }
-};
+constexpr Part kParts[] = { { "apply", bench_apply },         { "sizes", bench_sizes }, { "select", bench_select },
+                            { "reference", bench_reference }, { "torch", bench_torch }, { "ocio", bench_ocio },
+                            { "commands", bench_commands } };
 
 void print(const BenchLine& line)
 {
@@ -36,8 +35,10 @@ int main(int argc, char** argv)
     std::vector<std::string> parts;
     bool json = false;
     CLI::App app{ "Measures what users wait for against the limits of this machine, all in one run." };
-    app.add_option("parts", parts, "apply, sizes, select, reference, torch, commands; without any: all")
-        ->check(CLI::IsMember({ "apply", "sizes", "select", "reference", "torch", "commands" }));
+    std::vector<std::string> names;
+    for (const Part& part : kParts)
+        names.push_back(part.name);
+    app.add_option("parts", parts, "what to measure; without any: all")->check(CLI::IsMember(names));
     app.add_option("--model", settings.model, "model name or file")->capture_default_str();
     app.add_option("--megapixels", settings.megapixels, "size of the image")
         ->capture_default_str()

@@ -24,13 +24,13 @@ model_is_the_installed_one() {
 }
 
 exports_only_srisp() {
-    nm -DC --defined-only "$library/libsrisp.so" | cut -d' ' -f3- >"$scratch/symbols"
-    grep -q '^srisp::select(' "$scratch/symbols" && ! grep -vE '^(srisp::|(typeinfo|vtable)( name)? for srisp::)' "$scratch/symbols"
+    nm -DC --defined-only "$library/$1" | cut -d' ' -f3- >"$scratch/symbols"
+    grep -q "^srisp::$2(" "$scratch/symbols" && ! grep -vE '^(srisp::|(typeinfo|vtable)( name)? for srisp::)' "$scratch/symbols"
 }
 
 names_no_absolute_folders() {
-    for file in "$library/libsrisp.so" "$library"/srisp/*.so "$prefix"/bin/*; do
-        if readelf -d "$file" 2>/dev/null | grep -E 'R(UN)?PATH'; then return 1; fi
+    for file in "$library/libsrisp.so" "$library/libsrisp_ocio.so" "$library"/srisp/*.so "$prefix"/bin/*; do
+        if readelf -d "$file" 2>/dev/null | grep -E 'R(UN)?PATH' | grep -vF '[$ORIGIN]'; then return 1; fi
     done
     ! grep -rnF -e "$build" -e "$source" "$library/cmake" "$library/pkgconfig"
 }
@@ -40,8 +40,30 @@ check "the program built with CMake runs" model_is_the_installed_one "$scratch/c
 check "a program builds with pkg-config" with_pkg_config
 check "the program built with pkg-config runs" \
     model_is_the_installed_one env LD_LIBRARY_PATH="$library" "$scratch/unprocess"
-check "libsrisp exports nothing but srisp's own names" exports_only_srisp
-check "what is installed names no folder of the build, and has no run path" names_no_absolute_folders
+check "libsrisp exports nothing but srisp's own names" exports_only_srisp libsrisp.so select
+check "and so does libsrisp_ocio" exports_only_srisp libsrisp_ocio.so transform_from_context
+check "what is installed names no folder of the build, and has no run path but \$ORIGIN" names_no_absolute_folders
+# The host of OpenColorIO.
+host_with_cmake() {
+    cmake -S "$here/../package_ocio" -B "$scratch/host" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix" \
+        && cmake --build "$scratch/host"
+}
+host_with_pkg_config() {
+    PKG_CONFIG_PATH="$library/pkgconfig" pkg-config --cflags --libs srisp_ocio >"$scratch/flags" || return 1
+    eval "c++ -std=c++17 '$here/../package_ocio/host.cpp' -o '$scratch/host_program' $(cat "$scratch/flags")"
+}
+gives_the_pixel_of_the_bake() {
+    "$@" "$prefix/share/srisp/ocio/srisp.ocio" "$sample" >"$scratch/pixel" || return 1
+    "$prefix/bin/srispbake" --reference "$sample" -o "$scratch/bake" -q && ociochecklut "$scratch/bake.unprocess.clf" 0.5 0.5 0.5 \
+        | paste -d' ' "$scratch/pixel" - | tee "$scratch/both"
+    awk 'NF != 6 { exit 1 } { for (c = 1; c <= 3; c++) { d = $c - $(c + 3); if (d * d > 1e-9) exit 1 } }' "$scratch/both"
+}
+check "a host of OpenColorIO builds with find_package(srisp COMPONENTS ocio)" host_with_cmake
+check "it runs, and its pixel is that of the bake" gives_the_pixel_of_the_bake "$scratch/host/host"
+check "it builds with pkg-config" host_with_pkg_config
+check "and runs" gives_the_pixel_of_the_bake env LD_LIBRARY_PATH="$library" "$scratch/host_program"
+host_fails() { ! "$scratch/host/host" "$prefix/share/srisp/ocio/srisp.ocio" /no.dng 2>"$scratch/stderr" && grep "SRISP_REFERENCE='/no.dng'" "$scratch/stderr"; }
+check "a reference that is not there is named" host_fails
 check "headers and models are installed" \
     test -f "$prefix/include/srisp/select.h" -a -f "$prefix/share/srisp/models/pointwise.safetensors"
 finish

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <OpenColorIO/OpenColorIO.h>
+#include <srisp/apply.h>
+#include <srisp/expected.h>
+#include <srisp/export.h>
+#include <srisp/parameters.h>
+
+// The pipeline of a pointwise model as transforms of OpenColorIO. `Direction::reverse` ("unprocess") takes
+// display-encoded sRGB to RAW-like camera RGB, `Direction::forward` ("process") back; values in [0,1], others are
+// clamped. Exact: exponent, colour matrix, gains of the forward pass, all clamps, and inverse gains of at least 1.
+// Tabulated: the tone map as unclamped v + φ(v), and the highlight-preserving inverse gains. The two directions are
+// made apart: OpenColorIO's own inverse of one of them is not the other. Nothing throws; threads: safe.
+
+namespace srisp {
+
+class Model;
+
+/// Points along each side of the tone map's cube.
+constexpr int kSmallestLut = 5, kDefaultLut = 65, kLargestLut = 129;
+
+/// The group of transforms. `lut_size`: kSmallestLut … kLargestLut. Errors: a model that is not pointwise, parameters
+/// of another model, a size outside the limits.
+SRISP_API Expected<OCIO_NAMESPACE::GroupTransformRcPtr>
+make_ocio_transform(const Model& model, const Parameters& parameters, Direction direction, int lut_size = kDefaultLut);
+
+/// What a CLF file says of itself.
+struct ClfLabel {
+    std::string id, name;                  ///< attributes of its ProcessList
+    std::vector<std::string> descriptions; ///< one Description element each; UTF-8
+};
+
+/// The same transform as the text of a CLF file (Academy/ASC Common LUT Format, version 3): numbers come back to the
+/// bit. [S-2014-006]
+SRISP_API Expected<std::string> make_clf(const Model& model, const Parameters& parameters, Direction direction,
+                                         const ClfLabel& label, int lut_size = kDefaultLut);
+
+} // namespace srisp

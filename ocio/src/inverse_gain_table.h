@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "operators.h"
+
+namespace srisp {
+
+/// Appends the highlight-preserving inverse gain v · max(m + (1 − m) s, s), m = clamp01((mean(v) − 0.9) / 0.1)², for
+/// values from 0 to `most` per channel, and raises `most` to what can come out. A plain matrix where every s ≥ 1.
+/// Otherwise a matrix to (grey, R − grey, B − grey), curves that spread grey 0.9 … 1 and the differences that occur
+/// there over nearly all of a cube, and the cube: what the formula is outside of these is linear, and exact. [method 1]
+void append_inverse_gain(Operators& operators, const std::array<float, 3>& scales, std::array<float, 3>& most);
+
+} // namespace srisp

@@ -1,0 +1,162 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# srispbake from end to end: what it writes and prints, what it refuses, what it leaves.
+. "$(dirname "$0")/setup.sh"
+bake=$build/bin/srispbake
+unset SRISP_BAKE_PATH
+
+# no_bakes: nothing of a bake is left, not even half of it.
+no_bakes() {
+    [ -z "$(find . -name '*.clf*' -o -name '*.cube*')" ] && return 0
+    find . -name '*.clf*' -o -name '*.cube*'
+    return 1
+}
+# refuses CODE TEXT WORDS…
+refuses() {
+    expected=$1 text=$2
+    shift 2
+    says "$expected" "$text" "$bake" "$@" && no_bakes
+}
+
+head -c 20000 "$reference" >truncated.dng
+head -c 1000 "$photo" >truncated.jpg
+echo "{" >broken.json
+"$tool" "$photo" --srisp-params "$reference" 2>/dev/null >spatial.json
+"$tool" "$photo" --srisp-params:model=pointwise "$reference" 2>/dev/null >look.json
+check "nothing to bake" refuses 2 "no reference is given"
+check "an unknown option" refuses 2 "--refrence" --refrence x
+check "a LUT size that no host takes" refuses 2 "not in range 5 to 129" --reference "$reference" --lut-size 200
+check "no such reference" refuses 1 "no.dng" --reference no.dng -o x
+check "an empty name" refuses 2 "no reference is given" --reference ""
+check "a truncated reference" refuses 1 "truncated.dng" --reference truncated.dng
+check "a photo as reference" refuses 1 "photo.jpg" --reference "$photo" -o x
+check "no such photo" refuses 1 "photo 'no.jpg': does not exist" --reference "$reference" --source no.jpg
+check "a truncated photo" refuses 1 "truncated.jpg" --reference "$reference" --source truncated.jpg
+check "no such model" refuses 1 "did you mean 'pointwise'?" --reference "$reference" --model pointwize
+check "a model that looks at neighbours" refuses 1 "needs a pointwise model" --reference "$reference" --model default
+check "broken parameters" refuses 1 "broken.json" --params broken.json -o x
+check "no such parameters" refuses 1 "no.json" --params no.json -o x
+check "parameters of the other model" refuses 1 "--srisp-params:model=pointwise" --params spatial.json -o x
+check "no such folder" refuses 1 "nowhere/x.unprocess.clf" --reference "$reference" -o nowhere/x
+check "--help is on stdout" sh -c '"$1" --help | grep -q -- --lut-size' - "$bake"
+
+prints_errors() {
+    "$bake" --reference "$reference" --source "$photo" >report.txt || return 1
+    cat report.txt
+    grep -c "^  Error against the pointwise pipeline: over a grid of colours largest [0-9.e-]*, mean [0-9.e-]*; over $photo " \
+        report.txt | grep -qx 2 &&
+        grep -c "^  Difference to the full pipeline (model default) over $photo: largest" report.txt | grep -qx 2 &&
+        grep -qF "In the host: SRISP_REFERENCE=$reference" report.txt
+}
+check "a bake prints its errors, and what to set" prints_errors
+check "it lies beside the reference" [ -s "$reference.unprocess.clf" -a -s "$reference.process.clf" ]
+description() {
+    sed -n 's/^ *Error against/Error against/p; s/^ *Difference to/Difference to/p' report.txt | head -n 2 |
+        while read -r line; do grep -qF "<Description>$line</Description>" "$reference.unprocess.clf" || exit 1; done
+}
+check "the printed errors are in the file's description" description
+check "and the parameters" grep -q "Parameters: .*white_balance.*xxh128" "$reference.unprocess.clf"
+small_errors() {
+    "$bake" --reference "$reference" --source "$photo" --json >report.json || return 1
+    /usr/bin/python3 - <<'P'
+import json
+report = json.load(open("report.json"))
+assert len(report["files"]) == 2 and report["full_model"] == "default", report
+for file in report["files"]:
+    assert 0 < file["pointwise_grid"]["largest"] < 1e-3, file
+    assert 0 < file["pointwise_photo"]["largest"] < 1e-3, file
+    assert file["full_photo"]["mean"] > file["pointwise_photo"]["mean"], file  # the 3x3 part cannot be baked
+P
+}
+check "--json has the errors, and they are small" small_errors
+cp "$reference.unprocess.clf" first.clf.kept
+"$bake" --reference "$reference" --source "$photo" -q --threads 1
+check "the same input gives the same file, with any number of threads" cmp first.clf.kept "$reference.unprocess.clf"
+check "without a photo, the reference's own rendition is taken" sh -c \
+    '"$1" --reference "$2" | grep -q "neutral rendition"' - "$bake" "$reference"
+replayed() {
+    "$bake" --reference "$reference" --source "$photo" -q && "$bake" --params look.json -o replay -q || return 1
+    ociolut() { sed '/<Description>/d' "$1"; }
+    ociolut "$reference.unprocess.clf" >a.txt
+    ociolut replay.unprocess.clf >b.txt
+    cmp a.txt b.txt
+}
+check "parameters that srisptool printed replay to the same table" replayed
+one_file() {
+    "$bake" --params look.json -o one.clf -q --lut-size 17 --direction process && [ ! -e one.unprocess.clf ] &&
+        grep -q 'id="srisp-process"' one.clf && grep -q 'dim="17 17 17 3"' one.clf
+}
+check "one file, of the size and in the direction that are asked for" one_file
+cubes() {
+    "$bake" --params look.json -o c --cube --lut-size 21 >report.txt &&
+        grep -q "^LUT_3D_SIZE 21$" c.unprocess.cube && [ "$(grep -cE '^[0-9.e-]+ [0-9.e-]+ [0-9.e-]+$' c.process.cube)" -eq 9261 ] &&
+        [ "$(grep -c 'Error against' report.txt)" -eq 4 ] && grep -q "^# Error against" c.unprocess.cube
+}
+check ".cube files beside, with their own errors" cubes
+
+names() {
+    for name in "two words" "pay \$100" "50%20d" "größe" "a&b<c>" "it's" '"'; do
+        cp "$reference" "r $name.dng"
+        "$bake" --reference "r $name.dng" --source "$photo" -q --lut-size 9 2>warnings.txt || return 1
+        [ -s "r $name.dng.process.clf" ] || return 1
+        /usr/bin/python3 -c "import sys, xml.etree.ElementTree as x; x.parse(sys.argv[1])" "r $name.dng.unprocess.clf" || return 1
+        case $name in *[$%]*) grep -q "may take for a variable" warnings.txt || return 1 ;; esac
+    done
+}
+check "references with odd names; '\$' and '%' are warned of" names
+
+shared_bakes() {
+    mkdir -p bakes a b
+    cp "$reference" a/r.dng
+    cp "$reference" b/r.dng
+    mount -t tmpfs -o size=20m tmpfs b && cp "$reference" b/r.dng && mount -o remount,ro b || return 1
+    says 1 "SRISP_BAKE_PATH" "$bake" --reference b/r.dng || return 1
+    export SRISP_BAKE_PATH="$scratch/bakes"
+    "$bake" --reference b/r.dng --lut-size 9 -q && [ -s bakes/r.dng.unprocess.clf ] || return 1
+    "$bake" --reference b/r.dng --lut-size 9 -q || return 1 # its own may be made anew
+    mount --bind a/ a && mount -o remount,bind,ro a || return 1
+    says 1 "is the bake of another reference" "$bake" --reference a/r.dng --lut-size 9
+}
+full_disk() {
+    mkdir -p full && mount -t tmpfs -o size=6m tmpfs full && cp "$reference" full/r.dng || return 1
+    echo old >full/r.dng.process.clf
+    says 1 "full/r.dng" "$bake" --reference full/r.dng --source "$photo" || return 1
+    [ "$(cat full/r.dng.process.clf)" = old ] && [ "$(ls full | wc -l)" -eq 2 ]
+}
+mkdir -p mounted
+if mount -t tmpfs tmpfs mounted 2>/dev/null; then
+    trap 'cd /; for folder in mounted a b full; do umount "$scratch/$folder" 2>/dev/null; done; rm -rf "$scratch"' EXIT
+    check "bakes of read-only folders go to SRISP_BAKE_PATH, and none replaces that of another reference" shared_bakes
+    unset SRISP_BAKE_PATH
+    check "a full disk: a message, the old file, and nothing else" full_disk
+else
+    echo "SKIPPED ${0##*/}: read-only folders and full disks need mount, which is not permitted here"
+fi
+
+# wait_for COMMAND…: until it holds, 20 s at most.
+wait_for() {
+    for _ in $(seq 200); do "$@" && return 0; sleep 0.1; done
+    return 1
+}
+baked() { [ "$(grep -c 'unprocess.clf' watch.log)" -ge "$1" ]; }
+watched() {
+    cp "$reference" w.dng
+    cp look.json w.json
+    "$bake" --reference w.dng --params w.json --lut-size 9 --watch >watch.log 2>watch.err &
+    pid=$!
+    wait_for baked 1 || return 1
+    cp w.dng.unprocess.clf before.txt
+    sed -i 's/"gain": [0-9.]*/"gain": 2.5/' w.json
+    wait_for baked 2 && grep -q "gain&quot;: 2.5" w.dng.unprocess.clf || return 1
+    echo "{" >w.json
+    wait_for grep -q "w.json" watch.err || return 1
+    cp look.json w.json
+    wait_for baked 3 && cmp before.txt w.dng.unprocess.clf || return 1
+    touch w.dng
+    wait_for baked 4 || return 1
+    kill -TERM $pid # a shell's background jobs ignore SIGINT
+    wait $pid
+    [ $? -eq 143 ]
+}
+check "--watch bakes again after each change, outlives errors, and ends with a signal" watched
+finish

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+# The bakes and our config in the stock oiiotool.
+. "${0%/*}/ocio_setup.sh"
+
+here=$scratch/reference.dng
+oiiotool photo.jpg --ociolook:key=SRISP_REFERENCE:value="$here" "$unprocess" -o:datatype=float key.exr
+check "a look with the reference as context variable gives the library's pixels" near key.exr raw.exr 1e-3
+with "$here" oiiotool photo.jpg --ociolook "$unprocess" -o:datatype=float variable.exr
+check "the environment variable does the same" same key.exr variable.exr
+with "$here" oiiotool photo.jpg --colorconvert sRGB "$camera" -o:datatype=float space.exr
+check "a colour space does the same" near space.exr raw.exr 1e-3
+with "$here" oiiotool photo.jpg --tocolorspace camera_rgb -o:datatype=float alias.exr
+check "photos are known as sRGB, and camera RGB by its short name" same space.exr alias.exr
+with "$here" oiiotool raw.exr --ociolook "$process" -o:datatype=float p.tif
+check "our EXR is processed without telling its colour space" near p.tif back.tif 1e-3
+oiiotool raw.exr --ociolook:key=SRISP_REFERENCE:value="$here" "$process" -o:datatype=float p.tif
+check "and with the variable on the command line" near p.tif back.tif 1e-3
+with "$here" oiiotool raw.exr --colorconvert "$camera" sRGB -o:datatype=float p.tif
+check "or by its colour space" near p.tif back.tif 1e-3
+with "$here" oiiotool raw.exr --ociodisplay "sRGB display" "$process" -o:datatype=float p.tif
+check "or in a view" near p.tif back.tif 1e-3
+
+round_trip() {
+    with "$here" oiiotool photo.jpg --ociolook "$unprocess" --iscolorspace Linear --ociolook "$process" \
+        -o:datatype=float round.tif
+    # The pipeline's own error of the round trip, and no more than 1e-3 beside it.
+    near round.tif back.tif 1e-3
+}
+check "process undoes unprocess as far as the library's does" round_trip
+oiiotool --pattern fill:left=0,0,0:right=1,1,1 1024x8 3 --attrib oiio:ColorSpace sRGB -d float -o ramp.tif
+"$tool" photo.jpg --srisp-params:model=pointwise reference.dng 2>/dev/null >look.json
+"$tool" ramp.tif --srisp-unprocess:params=look.json:input=srgb - -o:datatype=float ramp_raw.exr 2>/dev/null
+with "$here" oiiotool ramp.tif --iscolorspace sRGB --ociolook "$unprocess" -o:datatype=float ramp_ocio.exr
+check "a grey ramp is within 1e-3" near ramp_ocio.exr ramp_raw.exr 1e-3
+
+oiiotool photo.jpg --ociolook "$unprocess" -o:datatype=float neutral.exr
+oiiotool photo.jpg --colorconvert sRGB Linear -o:datatype=float linear.exr
+check "with no reference nothing aborts: the photo is made linear" near neutral.exr linear.exr 1e-5
+
+# Two shots in one comp.
+mkdir other
+cp photo.jpg other/photo.jpg
+oiiotool photo.jpg --mulc 0.6,0.8,1 -o dark.jpg
+cp reference.dng other/reference.dng
+$bake --reference other/reference.dng --source dark.jpg --quiet
+library dark.jpg other/reference.dng dark_raw.exr dark_back.tif
+oiiotool photo.jpg --ociolook:key=SRISP_REFERENCE:value="$here" "$unprocess" -o:datatype=float a.exr \
+    dark.jpg --ociolook:key=SRISP_REFERENCE:value="$scratch/other/reference.dng" "$unprocess" -o:datatype=float b.exr
+check "two references at once: the first" same a.exr key.exr
+check "two references at once: the second" near b.exr dark_raw.exr 1e-3
+
+check "a missing bake: the message names its file" says "/nowhere/r.dng.unprocess.clf" \
+    env SRISP_REFERENCE=/nowhere/r.dng oiiotool photo.jpg --ociolook "$unprocess" -o no.exr
+check "a reference that was moved away: the message names its file" says "$scratch/gone.dng.unprocess.clf" \
+    env SRISP_REFERENCE="$scratch/gone.dng" oiiotool photo.jpg --ociolook "$unprocess" -o no.exr
+check "a name without a folder: the message names the file" says "r.dng.unprocess.clf" \
+    env SRISP_REFERENCE=r.dng oiiotool photo.jpg --ociolook "$unprocess" -o no.exr
+check "an empty variable: the message names the variable" says "SRISP_REFERENCE" \
+    env SRISP_REFERENCE= oiiotool photo.jpg --ociolook "$unprocess" -o no.exr
+head -c 100000 reference.dng.unprocess.clf >truncated.dng.unprocess.clf
+cp reference.dng.process.clf truncated.dng.process.clf
+check "a truncated bake: the message names its file" says "truncated.dng.unprocess.clf" \
+    env SRISP_REFERENCE="$scratch/truncated.dng" oiiotool photo.jpg --ociolook "$unprocess" -o no.exr
+check "none of these leaves an image" [ ! -e no.exr ]
+SRISP_BAKE_PATH=$scratch SRISP_REFERENCE=reference.dng oiiotool photo.jpg --ociolook "$unprocess" -o:datatype=float s.exr
+check "a name without a folder is found in SRISP_BAKE_PATH" same s.exr key.exr
+
+for name in "two words" "pay \$100" "\${HOME}" "%HOME%" "50%" "50%20d" "a&b" "k=v" "größe" "写真" "it's" "100%04d" "a,b"; do
+    mkdir -p "odd/$name"
+    cp reference.dng "odd/$name/r $name.dng"
+    cp reference.dng.unprocess.clf "odd/$name/r $name.dng.unprocess.clf"
+    cp reference.dng.process.clf "odd/$name/r $name.dng.process.clf"
+    with "$scratch/odd/$name/r $name.dng" oiiotool photo.jpg --ociolook "$unprocess" -o:datatype=float odd.exr
+    check "a path with '$name'" same odd.exr key.exr
+    rm -f odd.exr
+done
+finish

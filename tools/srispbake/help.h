@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace srisp {
+
+/// What srispbake --help prints.
+extern const char kHelp[];
+
+} // namespace srisp

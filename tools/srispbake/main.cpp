@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <thread>
+
+#include <OpenImageIO/imageio.h>
+
+#include "../common/failure.h"
+#include "../common/interrupt.h"
+#include "bake.h"
+#include "config_fragment.h"
+#include "help.h"
+#include "report.h"
+#include "watch.h"
+
+using namespace srisp;
+
+namespace {
+
+constexpr auto kLookEvery = std::chrono::milliseconds(250);
+
+void parse(int argc, char** argv, Options& options)
+{
+    CLI::App app;
+    describe_options(app, options);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        fail_usage(std::string(error.what()) + " (srispbake --help lists the options)");
+    }
+}
+
+void bake_once(const Options& options)
+{
+    const BakeSummary summary = bake(options);
+    if (!options.quiet)
+        std::fputs((options.json ? summary_json(summary) : summary_text(summary)).c_str(), stdout);
+    std::fflush(stdout);
+}
+
+/// What fails while watching is said, and watching goes on: files come and go while others work on them.
+[[noreturn]] void watch(const Options& options)
+{
+    std::vector<std::string> paths;
+    for (const std::string& path : { options.reference, options.source, options.parameters })
+        if (!path.empty())
+            paths.push_back(path);
+    if (const auto model = Model::load(options.model))
+        paths.push_back((*model)->path());
+    FileWatch files(paths);
+    for (bool due = true;; due = files.changed()) {
+        try {
+            if (due)
+                bake_once(options);
+        } catch (const Failure& failure) {
+            std::fprintf(stderr, "srispbake: %s\n", failure.message.c_str());
+        }
+        check_interrupt();
+        std::this_thread::sleep_for(kLookEvery);
+        check_interrupt();
+    }
+}
+
+int run(const Options& options)
+{
+    if (options.help || options.version) {
+        std::fputs(options.help ? kHelp : "srispbake " SRISP_VERSION "\n", stdout);
+        return 0;
+    }
+    check_options(options);
+    if (!options.fragment.empty()) {
+        const FragmentReport report = add_fragment(options.fragment, options.output, options.linear_srgb);
+        if (!options.quiet)
+            std::fputs(fragment_text(report).c_str(), stdout);
+        return 0;
+    }
+    OIIO::attribute("threads", options.threads);
+    watch_interrupts();
+    if (const std::string warning = name_warning(options.reference); !warning.empty())
+        std::fprintf(stderr, "srispbake: %s\n", warning.c_str());
+    if (options.watch)
+        watch(options);
+    bake_once(options);
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    try {
+        Options options;
+        parse(argc, argv, options);
+        return run(options);
+    } catch (const Interrupted& interrupted) {
+        die_of(interrupted);
+    } catch (const Failure& failure) {
+        std::fprintf(stderr, "srispbake: %s\n", failure.message.c_str());
+        return failure.exit_code;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "srispbake: %s\n", error.what());
+        return kExitFailed;
+    }
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <srisp/ocio_transform.h>
+
+namespace srisp {
+
+/// What the command line asks for.
+struct Options {
+    std::string reference, source, parameters, model = "pointwise", output;
+    std::string direction; ///< of a single file: "unprocess" or "process"
+    int lut_size = kDefaultLut;
+    std::string fragment;    ///< a config to be extended
+    std::string linear_srgb; ///< the name of that colour space in it; empty: found by itself
+    int threads = 0;         ///< 0: all
+    bool cube = false, watch = false, json = false, quiet = false, help = false, version = false;
+};
+
+/// Makes the parser; it fills `options`.
+void describe_options(CLI::App& app, Options& options);
+
+/// Throws Failure where options contradict each other or what is needed is missing.
+void check_options(const Options& options);
+
+} // namespace srisp

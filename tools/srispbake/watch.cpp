@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "watch.h"
+
+#include <sys/stat.h>
+
+namespace srisp {
+
+FileWatch::FileWatch(std::vector<std::string> paths)
+    : m_paths(std::move(paths)), m_reported(state()), m_last(m_reported)
+{
+}
+
+std::string FileWatch::state() const
+{
+    std::string text;
+    for (const std::string& path : m_paths) {
+        struct stat s;
+        if (::stat(path.c_str(), &s) == 0)
+            text += std::to_string(s.st_dev) + " " + std::to_string(s.st_ino) + " " + std::to_string(s.st_size) + " " +
+                    std::to_string(s.st_mtim.tv_sec) + "." + std::to_string(s.st_mtim.tv_nsec);
+        text += "\n";
+    }
+    return text;
+}
+
+bool FileWatch::changed()
+{
+    const std::string now = state();
+    const bool steady = now == m_last;
+    m_last = now;
+    if (!steady || now == m_reported)
+        return false;
+    m_reported = now;
+    return true;
+}
+
+} // namespace srisp

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace srisp {
+
+/// The text of an OpenColorIO config, to which entries can be added without touching any other character of it: its
+/// top level is a YAML map whose sections start in the first column.
+class YamlSections {
+public:
+    explicit YamlSections(const std::string& text);
+
+    bool has(const std::string& section) const;
+    /// Adds to the end of a section, or to a new section at the end of the text. `lines`: as they would be under a key
+    /// in the first column, indented by two; they get the indentation of the entries that are there. Throws Failure: a
+    /// section that is written in braces or brackets.
+    void append(const std::string& section, const std::vector<std::string>& lines);
+    std::string text() const;
+
+private:
+    std::size_t find(const std::string& section) const;
+    std::size_t end_of(std::size_t section) const;
+
+    std::vector<std::string> m_lines;
+};
+
+} // namespace srisp
