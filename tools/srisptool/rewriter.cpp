@@ -17,6 +17,9 @@ namespace {
 // round of a loop reuses the name.)
 const char kHandOver[] = "-o:datatype=float:bits=0:autocc=0:autotrim=0:dither=0";
 const char kTakeBack[] = "-i:now=1:autocc=0:info=0";
+// Left to itself oiiotool reads pixels when it comes to them, in one of the threads of a loop of its own, while the
+// others wait for it by spinning: that takes the cores away that apply needs.
+const char kReadNow[] = "-i:now=1";
 
 class Rewriter {
 public:
@@ -154,6 +157,13 @@ private:
     {
         recipe["source"] = std::filesystem::absolute(m_previous->words.back()).string();
         m_result.words.back() = m_options.folder + "/" + name + ".srisp";
+        if (!m_dry_run) {
+            const auto read = m_result.words.end() - 1;
+            if (m_previous->is_operand())
+                m_result.words.insert(read, kReadNow);
+            else
+                *(read - 1) = kReadNow;
+        }
         m_result.files.push_back({ name + ".srisp", std::move(recipe) });
     }
 

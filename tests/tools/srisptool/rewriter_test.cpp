@@ -12,6 +12,7 @@ using Words = std::vector<std::string>;
 namespace {
 
 const std::string kOut = "-o:datatype=float:bits=0:autocc=0:autotrim=0:dither=0";
+const std::string kReadNow = "-i:now=1";
 const std::string kIn = "-i:now=1:autocc=0:info=0";
 
 /// A photo and a reference that exist.
@@ -45,7 +46,7 @@ TEST_CASE("a plain file name before unprocess becomes a recipe")
 {
     const Files files;
     const Rewritten result = rewritten({ files.photo, "--srisp-unprocess:seed=3", files.reference, "-o", "raw.exr" });
-    CHECK(result.words == joined({ { "/T/1.srisp", "-o", "raw.exr" } }));
+    CHECK(result.words == joined({ { kReadNow, "/T/1.srisp", "-o", "raw.exr" } }));
     REQUIRE(result.files.size() == 1);
     CHECK(result.files[0].name == "1.srisp");
     CHECK(result.files[0].content == nlohmann::json{ { "format", "srisp-recipe-1" },
@@ -61,7 +62,7 @@ TEST_CASE("a plain file name before unprocess becomes a recipe")
 TEST_CASE("-i without modifiers is as good as a plain name")
 {
     const Files files;
-    CHECK(rewritten({ "-i", files.photo, "--srisp-process" }).words == joined({ { "-i", "/T/1.srisp" } }));
+    CHECK(rewritten({ "-i", files.photo, "--srisp-process" }).words == joined({ { kReadNow, "/T/1.srisp" } }));
     CHECK(rewritten({ "-i:ch=R,G,B", files.photo, "--srisp-process" }).words ==
           joined({ { "-i:ch=R,G,B", files.photo }, hand_over("1") }));
 }
@@ -88,7 +89,8 @@ TEST_CASE("commands one after the other get numbers of their own")
     const Rewritten result =
         rewritten({ files.photo, "--srisp-unprocess", files.reference, files.other, "--srisp-unprocess",
                     files.reference, "--over", "--srisp-process", "-o", "x.exr" });
-    CHECK(result.words == joined({ { "/T/1.srisp", "/T/2.srisp", "--over" }, hand_over("3"), { "-o", "x.exr" } }));
+    CHECK(result.words ==
+          joined({ { kReadNow, "/T/1.srisp", kReadNow, "/T/2.srisp", "--over" }, hand_over("3"), { "-o", "x.exr" } }));
     CHECK(result.files[2].content["direction"] == "forward");
 }
 
@@ -96,7 +98,7 @@ TEST_CASE("process directly after unprocess is handed over")
 {
     const Files files;
     CHECK(rewritten({ files.photo, "--srisp-unprocess", files.reference, "--srisp-process" }).words ==
-          joined({ { "/T/1.srisp" }, hand_over("2") }));
+          joined({ { kReadNow, "/T/1.srisp" }, hand_over("2") }));
 }
 
 TEST_CASE("printing and saving parameters leave the image on the stack")
@@ -152,7 +154,7 @@ TEST_CASE("options that change nothing of reading do not")
 {
     const Files files;
     CHECK(rewritten({ "-v", "--threads", "2", "-a", "--frames", "1-3", files.photo, "--srisp-process" }).words ==
-          joined({ { "-v", "--threads", "2", "-a", "--frames", "1-3", "/T/1.srisp" } }));
+          joined({ { "-v", "--threads", "2", "-a", "--frames", "1-3", kReadNow, "/T/1.srisp" } }));
 }
 
 TEST_CASE("wildcards, expressions, queries, labels, recipes and missing files are handed over, never named in a job")
@@ -248,7 +250,7 @@ TEST_CASE("--quiet and --no-progress are ours: oiiotool gets its -q")
 {
     const Files files;
     CHECK(rewritten({ "--quiet", "--no-progress", files.photo, "--srisp-process" }).words ==
-          joined({ { "-q", "/T/1.srisp" } }));
+          joined({ { "-q", kReadNow, "/T/1.srisp" } }));
 }
 
 TEST_CASE("without an image there is nothing to do")
