@@ -15,8 +15,3 @@ function(srisp_drop_missing_includes target)
     set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${existing}")
 endfunction()
 srisp_drop_missing_includes(OpenImageIO::OpenImageIO)
-
-# Highway: the kernels keep vectors in arrays, which scalable ones (SVE) cannot be; NEON serves there.
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
-    add_compile_definitions("HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")
-endif()
