@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <list>
 #include <map>
-#include <mutex>
 
 #include <srisp/metadata.h>
 #include <srisp/select.h>
@@ -13,6 +11,7 @@
 
 #include "band_reader.h"
 #include "notes.h"
+#include "recently_kept.h"
 #include "text_file.h"
 
 namespace srisp {
@@ -21,39 +20,6 @@ namespace {
 
 constexpr std::size_t kMostChoices = 64;
 constexpr std::size_t kMostModels = 8;
-
-/// The values that were kept last, by name; those kept longest go first.
-template<class Value> class RecentlyKept {
-public:
-    explicit RecentlyKept(std::size_t most) : m_most(most) {}
-
-    Value find(const std::string& key)
-    {
-        const std::lock_guard<std::mutex> lock(m_mutex);
-        for (const auto& entry : m_entries)
-            if (entry.first == key)
-                return entry.second;
-        return {};
-    }
-
-    /// Another thread may have kept a value meanwhile: the first one stays, and is returned.
-    Value keep(const std::string& key, Value value)
-    {
-        const std::lock_guard<std::mutex> lock(m_mutex);
-        for (const auto& entry : m_entries)
-            if (entry.first == key)
-                return entry.second;
-        m_entries.emplace_front(key, value);
-        if (m_entries.size() > m_most)
-            m_entries.pop_back();
-        return value;
-    }
-
-private:
-    std::mutex m_mutex;
-    std::size_t m_most;
-    std::list<std::pair<std::string, Value>> m_entries;
-};
 
 // Never destroyed: other threads of the host may still read while statics end.
 RecentlyKept<ChoicePtr>& choices()

@@ -91,6 +91,14 @@ void add_dictionaries(ModelFile& model, Random& random, int atoms, int kernel)
 
 } // namespace
 
+std::vector<float> random_values(Random& random, std::size_t count)
+{
+    std::vector<float> values(count);
+    for (float& value : values)
+        value = random.uniform(-1, 1);
+    return values;
+}
+
 ModelFile random_model(int kernel_size, std::uint64_t seed, int dictionary_size)
 {
     Random random(seed);

@@ -27,6 +27,9 @@ private:
     std::uint64_t m_state;
 };
 
+/// Values from −1 to 1.
+std::vector<float> random_values(Random& random, std::size_t count);
+
 /// A model of the `srisp-1` format with random values, to be broken by tests and written to a file.
 struct ModelFile {
     std::map<std::string, std::string> metadata;

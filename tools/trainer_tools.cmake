@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # The tools that train models and hold them against tests.
 add_executable(srispeval srispeval/main.cpp)
-target_compile_definitions(srispeval PRIVATE SRISP_VERSION="${PROJECT_VERSION}")
-target_link_libraries(srispeval PRIVATE srisp_train srisp_tools_common CLI11::CLI11)
+target_link_libraries(srispeval PRIVATE srisp_train srisp_tools_common)
 target_precompile_headers(srispeval REUSE_FROM srisp_train)
 install(TARGETS srispeval DESTINATION ${CMAKE_INSTALL_BINDIR})
 srisp_man_page(srispeval --help)
@@ -22,8 +21,7 @@ add_executable(srisptrain
     srisptrain/train.cpp)
 add_dependencies(srisptrain srisp_commit)
 target_include_directories(srisptrain PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
-target_compile_definitions(srisptrain PRIVATE SRISP_VERSION="${PROJECT_VERSION}")
-target_link_libraries(srisptrain PRIVATE srisp_train srisp_tools_common CLI11::CLI11)
+target_link_libraries(srisptrain PRIVATE srisp_train srisp_tools_common)
 target_precompile_headers(srisptrain REUSE_FROM srisp_train)
 install(TARGETS srisptrain DESTINATION ${CMAKE_INSTALL_BINDIR})
 srisp_man_page(srisptrain --help)

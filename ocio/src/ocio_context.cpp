@@ -2,8 +2,6 @@
 #include <srisp/ocio_context.h>
 
 #include <filesystem>
-#include <list>
-#include <mutex>
 #include <string>
 
 #include <srisp/model.h>
@@ -14,6 +12,7 @@
 #include <srisp/select.h>
 
 #include "content_hash.h"
+#include "recently_kept.h"
 
 namespace srisp {
 
@@ -25,36 +24,6 @@ using Group = OCIO::ConstGroupTransformRcPtr;
 
 const char kNeutral[] = "srisp_neutral", kDefaultModel[] = "pointwise";
 constexpr std::size_t kMostKept = 16; // 4 MB each
-
-/// The transforms that were used last, newest first.
-class Kept {
-public:
-    Group find(const std::string& key)
-    {
-        const std::lock_guard<std::mutex> lock(m_mutex);
-        for (auto entry = m_entries.begin(); entry != m_entries.end(); ++entry)
-            if (entry->first == key) {
-                m_entries.splice(m_entries.begin(), m_entries, entry);
-                return m_entries.front().second;
-            }
-        return {};
-    }
-    /// Another thread may have kept one meanwhile: the first one stays, and is returned.
-    Group keep(const std::string& key, const Group& group)
-    {
-        if (Group first = find(key))
-            return first;
-        const std::lock_guard<std::mutex> lock(m_mutex);
-        m_entries.emplace_front(key, group);
-        if (m_entries.size() > kMostKept)
-            m_entries.pop_back();
-        return group;
-    }
-
-private:
-    std::mutex m_mutex;
-    std::list<std::pair<std::string, Group>> m_entries;
-};
 
 /// What our config's neutral bakes are.
 Group neutral_transform(Direction direction)
@@ -106,7 +75,7 @@ Expected<Group> make(const Model& model, const Reference& reference, const std::
 Expected<Group> kept_or_made(const OCIO::Context& context, Direction direction)
 {
     // Never destroyed: other threads of the host may still ask while statics end.
-    static Kept& kept = *new Kept;
+    static auto& kept = *new RecentlyKept<Group>(kMostKept);
     const auto reference_path = found_file(context, "SRISP_REFERENCE");
     if (!reference_path)
         return reference_path.error();

@@ -2,19 +2,20 @@
 # SPDX-License-Identifier: Apache-2.0
 # What is installed works from any folder: a small program finds it with CMake and with pkg-config, and runs.
 . "$(dirname "$0")/check.sh"
-here=$source/tests/repository/package
+programs=$source/tests/repository
 sample=$source/configs/sample/reference.dng
 library=$(dirname "$(find "$prefix/" -name libsrisp.so)")
 
 with_cmake() {
-    cmake -S "$here" -B "$scratch/cmake" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix" \
-        && cmake --build "$scratch/cmake"
+    cmake -S "$programs/$1" -B "$scratch/$1" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix" \
+        && cmake --build "$scratch/$1"
 }
 
+# with_pkg_config FOLDER PACKAGE PROGRAM
 with_pkg_config() {
     # One word per line: the prefix may hold spaces.
-    PKG_CONFIG_PATH="$library/pkgconfig" pkg-config --cflags --libs srisp >"$scratch/flags" || return 1
-    eval "c++ -std=c++17 '$here/main.cpp' -o '$scratch/unprocess' $(cat "$scratch/flags")"
+    PKG_CONFIG_PATH="$library/pkgconfig" pkg-config --cflags --libs "$2" >"$scratch/flags" || return 1
+    eval "c++ -std=c++17 '$programs/$1/$3.cpp' -o '$scratch/$3' $(cat "$scratch/flags")"
 }
 
 model_is_the_installed_one() {
@@ -35,35 +36,31 @@ names_no_absolute_folders() {
     ! grep -rnF -e "$build" -e "$source" "$library/cmake" "$library/pkgconfig"
 }
 
-check "a program builds with find_package(srisp)" with_cmake
-check "the program built with CMake runs" model_is_the_installed_one "$scratch/cmake/unprocess"
-check "a program builds with pkg-config" with_pkg_config
-check "the program built with pkg-config runs" \
-    model_is_the_installed_one env LD_LIBRARY_PATH="$library" "$scratch/unprocess"
-check "libsrisp exports nothing but srisp's own names" exports_only_srisp libsrisp.so select
-check "and so does libsrisp_ocio" exports_only_srisp libsrisp_ocio.so transform_from_context
-check "what is installed names no folder of the build, and has no run path but \$ORIGIN" names_no_absolute_folders
-# The host of OpenColorIO.
-host_with_cmake() {
-    cmake -S "$here/../package_ocio" -B "$scratch/host" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix" \
-        && cmake --build "$scratch/host"
-}
-host_with_pkg_config() {
-    PKG_CONFIG_PATH="$library/pkgconfig" pkg-config --cflags --libs srisp_ocio >"$scratch/flags" || return 1
-    eval "c++ -std=c++17 '$here/../package_ocio/host.cpp' -o '$scratch/host_program' $(cat "$scratch/flags")"
-}
 gives_the_pixel_of_the_bake() {
     "$@" "$prefix/share/srisp/ocio/srisp.ocio" "$sample" >"$scratch/pixel" || return 1
     "$prefix/bin/srispbake" --reference "$sample" -o "$scratch/bake" -q && ociochecklut "$scratch/bake.unprocess.clf" 0.5 0.5 0.5 \
         | paste -d' ' "$scratch/pixel" - | tee "$scratch/both"
     awk 'NF != 6 { exit 1 } { for (c = 1; c <= 3; c++) { d = $c - $(c + 3); if (d * d > 1e-9) exit 1 } }' "$scratch/both"
 }
-check "a host of OpenColorIO builds with find_package(srisp COMPONENTS ocio)" host_with_cmake
-check "it runs, and its pixel is that of the bake" gives_the_pixel_of_the_bake "$scratch/host/host"
-check "it builds with pkg-config" host_with_pkg_config
-check "and runs" gives_the_pixel_of_the_bake env LD_LIBRARY_PATH="$library" "$scratch/host_program"
-host_fails() { ! "$scratch/host/host" "$prefix/share/srisp/ocio/srisp.ocio" /no.dng 2>"$scratch/stderr" && grep "SRISP_REFERENCE='/no.dng'" "$scratch/stderr"; }
-check "a reference that is not there is named" host_fails
+
+names_the_missing_reference() {
+    ! "$scratch/package_ocio/host" "$prefix/share/srisp/ocio/srisp.ocio" /no.dng 2>"$scratch/stderr" \
+        && grep "SRISP_REFERENCE='/no.dng'" "$scratch/stderr"
+}
+
+check "a program builds with find_package(srisp)" with_cmake package
+check "the program built with CMake runs" model_is_the_installed_one "$scratch/package/unprocess"
+check "a program builds with pkg-config" with_pkg_config package srisp unprocess
+check "the program built with pkg-config runs" \
+    model_is_the_installed_one env LD_LIBRARY_PATH="$library" "$scratch/unprocess"
+check "libsrisp exports nothing but srisp's own names" exports_only_srisp libsrisp.so select
+check "and so does libsrisp_ocio" exports_only_srisp libsrisp_ocio.so transform_from_context
+check "what is installed names no folder of the build, and has no run path but \$ORIGIN" names_no_absolute_folders
+check "a host of OpenColorIO builds with find_package(srisp COMPONENTS ocio)" with_cmake package_ocio
+check "it runs, and its pixel is that of the bake" gives_the_pixel_of_the_bake "$scratch/package_ocio/host"
+check "it builds with pkg-config" with_pkg_config package_ocio srisp_ocio host
+check "and runs" gives_the_pixel_of_the_bake env LD_LIBRARY_PATH="$library" "$scratch/host"
+check "a reference that is not there is named" names_the_missing_reference
 check "headers and models are installed" \
     test -f "$prefix/include/srisp/select.h" -a -f "$prefix/share/srisp/models/pointwise.safetensors"
 finish

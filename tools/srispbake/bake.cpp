@@ -8,6 +8,7 @@
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
+#include "../common/require.h"
 #include "clf_text.h"
 #include "cube_file.h"
 #include "ocio_group.h"
@@ -82,15 +83,13 @@ BakeReport measured(const OutputName& name, const OCIO_NAMESPACE::ConstTransform
 
 Baked bake_clf(const OutputName& name, const Options& options, const Choice& choice)
 {
-    const auto operators =
-        pipeline_operators(*choice.pointwise.model, choice.pointwise.parameters, name.direction, options.lut_size);
-    if (!operators)
-        fail(operators.error().message);
+    const auto operators = require(
+        pipeline_operators(*choice.pointwise.model, choice.pointwise.parameters, name.direction, options.lut_size));
     check_interrupt();
-    Baked baked{ measured(name, ocio_group(*operators), choice), {} };
+    Baked baked{ measured(name, ocio_group(operators), choice), {} };
     const ClfLabel label{ "srisp-" + std::string(direction_name(name.direction)), title(choice, name.direction),
                           descriptions(options, choice, name.direction, baked.report.sentences) };
-    baked.text = clf_text(*operators, label);
+    baked.text = clf_text(operators, label);
     return baked;
 }
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "../common/failure.h"
 #include "../common/interrupt.h"
+#include "../common/require.h"
 
 namespace srisp {
 
@@ -20,11 +20,8 @@ using Pixels = std::vector<float>;
 class Renderer {
 public:
     Renderer(const Chosen& chosen, Direction direction)
+        : m_applier(require(Applier::create(*chosen.model, chosen.parameters, direction)))
     {
-        auto applier = Applier::create(*chosen.model, chosen.parameters, direction);
-        if (!applier)
-            fail(applier.error().message);
-        m_applier = *applier;
     }
 
     /// `rgb` is the part `held` of an image of width × height; the result is `roi` of it.
@@ -32,12 +29,10 @@ public:
     {
         const int held_width = held.x1 - held.x0, roi_width = roi.x1 - roi.x0;
         Pixels result(std::size_t(3) * roi_width * (roi.y1 - roi.y0));
-        const Status status = m_applier->run(
+        require(m_applier->run(
             ImageView{ rgb.data(), held_width, held.y1 - held.y0, 3, std::ptrdiff_t(3) * held_width }, held.x0, held.y0,
             width, height, roi,
-            MutableImageView{ result.data(), roi_width, roi.y1 - roi.y0, 3, std::ptrdiff_t(3) * roi_width });
-        if (!status)
-            fail(status.error().message);
+            MutableImageView{ result.data(), roi_width, roi.y1 - roi.y0, 3, std::ptrdiff_t(3) * roi_width }));
         return result;
     }
     /// Single colours.

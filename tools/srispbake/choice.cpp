@@ -8,6 +8,7 @@
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
+#include "../common/require.h"
 #include "file_bytes.h"
 #include "printed_parameters.h"
 
@@ -17,13 +18,6 @@ namespace {
 
 constexpr std::size_t kLargestParameters = 1 << 20;
 const char kFullModel[] = "default";
-
-template<class T> T require(Expected<T> result)
-{
-    if (!result)
-        fail(result.error().message);
-    return std::move(*result);
-}
 
 std::shared_ptr<const Model> pointwise_model(const std::string& name)
 {

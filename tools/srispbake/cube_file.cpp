@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "../common/failure.h"
+#include "../common/require.h"
 
 namespace srisp {
 
@@ -25,10 +25,7 @@ CubeTable::CubeTable(const Chosen& chosen, Direction direction, int size) : m_si
                 for (const int i : { r, g, b })
                     m_rgb.push_back(float(i) / float(size - 1));
     const MutableImageView colors{ m_rgb.data(), size * size, size, 3, std::ptrdiff_t(3) * size * size };
-    const auto applier = Applier::create(*chosen.model, chosen.parameters, direction);
-    const Status status = applier ? (*applier)->run(colors, colors) : Status(applier.error());
-    if (!status)
-        fail(status.error().message);
+    require(require(Applier::create(*chosen.model, chosen.parameters, direction))->run(colors, colors));
 }
 
 OCIO::ConstTransformRcPtr CubeTable::transform() const

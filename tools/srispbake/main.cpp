@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <thread>
 
 #include <OpenImageIO/imageio.h>
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
+#include "../common/run_tool.h"
 #include "bake.h"
 #include "config_fragment.h"
 #include "help.h"
@@ -19,17 +19,6 @@ using namespace srisp;
 namespace {
 
 constexpr auto kLookEvery = std::chrono::milliseconds(250);
-
-void parse(int argc, char** argv, Options& options)
-{
-    CLI::App app;
-    describe_options(app, options);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        fail_usage(std::string(error.what()) + " (srispbake --help lists the options)");
-    }
-}
 
 void bake_once(const Options& options)
 {
@@ -64,10 +53,6 @@ void bake_once(const Options& options)
 
 int run(const Options& options)
 {
-    if (options.help || options.version) {
-        std::fputs(options.help ? kHelp : "srispbake " SRISP_VERSION "\n", stdout);
-        return 0;
-    }
     check_options(options);
     if (!options.fragment.empty()) {
         const FragmentReport report = add_fragment(options.fragment, options.output, options.linear_srgb);
@@ -89,17 +74,10 @@ int run(const Options& options)
 
 int main(int argc, char** argv)
 {
-    try {
+    return run_tool("srispbake", [&] {
         Options options;
-        parse(argc, argv, options);
-        return run(options);
-    } catch (const Interrupted& interrupted) {
-        die_of(interrupted);
-    } catch (const Failure& failure) {
-        std::fprintf(stderr, "srispbake: %s\n", failure.message.c_str());
-        return failure.exit_code;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "srispbake: %s\n", error.what());
-        return kExitFailed;
-    }
+        CLI::App app;
+        describe_options(app, options);
+        return parse_options(app, options, "srispbake", kHelp, argc, argv) ? run(options) : 0;
+    });
 }

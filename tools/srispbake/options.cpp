@@ -6,12 +6,9 @@
 
 namespace srisp {
 
-// Texts are in help.cpp, from which the man page is made, too.
 void describe_options(CLI::App& app, Options& options)
 {
-    app.set_help_flag();
-    app.add_flag("-h,--help", options.help);
-    app.add_flag("--version", options.version);
+    describe_common_options(app, options);
     app.add_option("--reference", options.reference);
     app.add_option("--source", options.source);
     app.add_option("--params", options.parameters);
@@ -21,11 +18,8 @@ void describe_options(CLI::App& app, Options& options)
     app.add_option("--lut-size", options.lut_size)->check(CLI::Range(kSmallestLut, kLargestLut));
     app.add_option("--fragment", options.fragment);
     app.add_option("--linear-srgb", options.linear_srgb);
-    app.add_option("--threads", options.threads)->check(CLI::Range(0, 1024));
     app.add_flag("--cube", options.cube);
     app.add_flag("--watch", options.watch);
-    app.add_flag("--json", options.json);
-    app.add_flag("-q,--quiet", options.quiet);
 }
 
 void check_options(const Options& options)

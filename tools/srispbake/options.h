@@ -6,17 +6,18 @@
 #include <CLI/CLI.hpp>
 #include <srisp/ocio_transform.h>
 
+#include "../common/common_options.h"
+
 namespace srisp {
 
 /// What the command line asks for.
-struct Options {
+struct Options : CommonOptions {
     std::string reference, source, parameters, model = "pointwise", output;
     std::string direction; ///< of a single file: "unprocess" or "process"
     int lut_size = kDefaultLut;
     std::string fragment;    ///< a config to be extended
     std::string linear_srgb; ///< the name of that colour space in it; empty: found by itself
-    int threads = 0;         ///< 0: all
-    bool cube = false, watch = false, json = false, quiet = false, help = false, version = false;
+    bool cube = false, watch = false;
 };
 
 /// Makes the parser; it fills `options`.

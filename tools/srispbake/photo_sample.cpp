@@ -5,8 +5,8 @@
 
 #include <srisp/thumbnail.h>
 
-#include "../common/failure.h"
 #include "../common/interrupt.h"
+#include "../common/require.h"
 #include "photo_file.h"
 
 namespace srisp {
@@ -53,22 +53,18 @@ void add_rows(PhotoSample& sample, ImageView rows, int y0)
 
 PhotoSample read_photo_sample(const std::string& path)
 {
-    auto photo = PhotoFile::open(path);
-    if (!photo)
-        fail(photo.error().message);
-    PhotoSample sample = empty_sample(path, photo->width(), photo->height());
+    PhotoFile photo = require(PhotoFile::open(path));
+    PhotoSample sample = empty_sample(path, photo.width(), photo.height());
     ThumbnailBuilder builder(sample.width, sample.height);
-    for (int y = 0; y < sample.height; y += photo->band_rows()) {
+    for (int y = 0; y < sample.height; y += photo.band_rows()) {
         check_interrupt();
-        const int end = std::min(y + photo->band_rows(), sample.height);
-        const auto rgb = photo->read(y, end);
-        if (!rgb)
-            fail(rgb.error().message);
-        const ImageView rows{ *rgb, sample.width, end - y, 3, std::ptrdiff_t(3) * sample.width };
+        const int end = std::min(y + photo.band_rows(), sample.height);
+        const float* const rgb = require(photo.read(y, end));
+        const ImageView rows{ rgb, sample.width, end - y, 3, std::ptrdiff_t(3) * sample.width };
         builder.add_rows(rows);
         add_rows(sample, rows, y);
     }
-    sample.thumbnail = builder.finish(photo->orientation());
+    sample.thumbnail = builder.finish(photo.orientation());
     return sample;
 }
 

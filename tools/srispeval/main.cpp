@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
-#include <exception>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "../common/failure.h"
 #include "../common/progress_meter.h"
+#include "../common/require.h"
+#include "../common/run_tool.h"
 #include "evaluation.h"
 #include "model_file.h"
 #include "model_files.h"
@@ -26,13 +27,6 @@ struct Options {
     bool json = false, by_camera = false, quiet = false;
     int threads = 0;
 };
-
-template<class T> T require(Expected<T> result)
-{
-    if (!result)
-        fail(result.error().message);
-    return std::move(*result);
-}
 
 /// The settings as `--set` asks for them.
 EvaluationSettings read_settings(const std::vector<std::string>& assignments)
@@ -150,13 +144,5 @@ int main(int argc, char** argv)
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : kExitUsage;
     }
-    try {
-        return run(options);
-    } catch (const Failure& failure) {
-        std::fprintf(stderr, "srispeval: %s\n", failure.message.c_str());
-        return failure.exit_code;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "srispeval: %s\n", error.what());
-        return kExitFailed;
-    }
+    return run_tool("srispeval", [&] { return run(options); });
 }

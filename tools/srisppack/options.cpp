@@ -7,12 +7,9 @@
 
 namespace srisp {
 
-// Texts are in help.cpp, from which the man page is made, too.
 void describe_options(CLI::App& app, Options& options)
 {
-    app.set_help_flag();
-    app.add_flag("-h,--help", options.help);
-    app.add_flag("--version", options.version);
+    describe_common_options(app, options);
     app.add_option("inputs", options.inputs);
     app.add_option("--photos", options.photos)->allow_extra_args(false);
     app.add_option("--raws", options.raws)->allow_extra_args(false);
@@ -23,12 +20,9 @@ void describe_options(CLI::App& app, Options& options)
     app.add_option("--raw-size", options.raw_size)->check(CLI::Range(kSmallestPackImage, kThumbnailSize));
     app.add_option("--crops", options.crops)->check(CLI::Range(0, 100));
     app.add_option("--seed", options.seed);
-    app.add_option("--threads", options.threads)->check(CLI::Range(0, 1024));
     app.add_flag("--open-only", options.open_only);
     app.add_flag("--strict", options.strict);
     app.add_flag("--replace", options.replace);
-    app.add_flag("--json", options.json);
-    app.add_flag("-q,--quiet", options.quiet);
 }
 
 } // namespace srisp

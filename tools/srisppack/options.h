@@ -7,18 +7,19 @@
 
 #include <CLI/CLI.hpp>
 
+#include "../common/common_options.h"
+
 namespace srisp {
 
 /// What the command line asks for.
-struct Options {
+struct Options : CommonOptions {
     std::vector<std::string> inputs;                ///< recognised by what they hold
     std::vector<std::string> photos, raws, cameras; ///< taken as that
     std::string output;
     int size = 128, raw_size = 0; ///< pixels; 0: as the inputs suggest
     int crops = 3;
     std::uint64_t seed = 0;
-    int threads = 0; ///< 0: all
-    bool open_only = false, strict = false, replace = false, json = false, quiet = false, help = false, version = false;
+    bool open_only = false, strict = false, replace = false;
 };
 
 /// Makes the parser; it fills `options`.

@@ -8,6 +8,7 @@
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
+#include "../common/require.h"
 #include "camera_folder.h"
 #include "linear_set.h"
 #include "photo_task.h"
@@ -18,12 +19,6 @@ namespace srisp {
 namespace {
 
 constexpr std::size_t kListedFailures = 20;
-
-void require(const Status& status)
-{
-    if (!status)
-        fail(status.error().message);
-}
 
 /// Where there are only sets, their own size: enlarging adds nothing.
 int choose_raw_size(const Options& options, const Inputs& inputs)

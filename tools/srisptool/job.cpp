@@ -25,17 +25,18 @@ void require_known(const SrispCommand& command, const std::string& word, const s
 
 void set_choice(nlohmann::json& job, const std::string& command, const std::string& name, const std::string& value)
 {
+    const auto require_one_of = [&](const std::vector<std::string>& values, const char* listed) {
+        if (std::find(values.begin(), values.end(), value) == values.end())
+            fail_usage(command + ": " + name + " is '" + value + "', must be " + listed);
+    };
     if (name == "input") {
-        if (value != "auto" && value != "srgb" && value != "linear")
-            fail_usage(command + ": input is '" + value + "', must be auto, srgb or linear");
+        require_one_of({ "auto", "srgb", "linear" }, "auto, srgb or linear");
         job["input"] = value;
     } else if (name == "precision") {
-        if (value != "float32" && value != "fast")
-            fail_usage(command + ": precision is '" + value + "', must be float32 or fast");
+        require_one_of({ "float32", "fast" }, "float32 or fast");
         job["precision"] = value;
     } else if (name == "hold") {
-        if (value != "0" && value != "1")
-            fail_usage(command + ": hold is '" + value + "', must be 0 or 1");
+        require_one_of({ "0", "1" }, "0 or 1");
         job["hold"] = value == "1";
     } else {
         if (value.find_first_not_of("0123456789") != std::string::npos || value.size() > 18)

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 
-#include "../common/failure.h"
+#include "../common/run_tool.h"
 #include "command_line.h"
 #include "help.h"
 #include "session.h"
@@ -39,13 +38,7 @@ static int run(const std::string& program, const std::vector<std::string>& words
 
 int main(int argc, char** argv)
 {
-    try {
+    return run_tool("srisptool", [&] {
         return run(std::filesystem::path(argv[0]).filename(), { argv + 1, argv + argc });
-    } catch (const Failure& failure) {
-        std::fprintf(stderr, "srisptool: %s\n", failure.message.c_str());
-        return failure.exit_code;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "srisptool: %s\n", error.what());
-        return kExitFailed;
-    }
+    });
 }

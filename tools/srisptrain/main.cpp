@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
-#include <exception>
 
 #include "../common/failure.h"
+#include "../common/run_tool.h"
 #include "process_setup.h"
 #include "train.h"
 
@@ -49,14 +49,5 @@ int main(int argc, char** argv)
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : kExitUsage;
     }
-    try {
-        return run(options);
-    } catch (const Failure& failure) {
-        std::fprintf(stderr, "srisptrain: %s\n", failure.message.c_str());
-        return failure.exit_code;
-    } catch (const std::exception& error) {
-        const std::string text = error.what(); // LibTorch appends a stack trace
-        std::fprintf(stderr, "srisptrain: %s\n", text.substr(0, text.find('\n')).c_str());
-        return kExitFailed;
-    }
+    return run_tool("srisptrain", [&] { return run(options); });
 }

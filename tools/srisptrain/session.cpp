@@ -7,6 +7,7 @@
 
 #include "../common/failure.h"
 #include "../common/progress_meter.h"
+#include "../common/require.h"
 #include "model_file.h"
 #include "model_files.h"
 #include "network.h"
@@ -17,13 +18,6 @@ namespace srisp {
 using namespace train;
 
 namespace {
-
-template<class T> T require(Expected<T> result)
-{
-    if (!result)
-        fail(result.error().message);
-    return std::move(*result);
-}
 
 torch::Device device_of(const std::string& name)
 {

@@ -14,14 +14,6 @@ struct Case {
     int inputs, outputs, taps, width;
 };
 
-std::vector<float> random_values(Random& random, std::size_t count)
-{
-    std::vector<float> values(count);
-    for (float& value : values)
-        value = random.uniform(-1, 1);
-    return values;
-}
-
 template<class Kernel> std::vector<float> convolved(const Case& c, bool relu, Kernel kernel)
 {
     Random random(7);

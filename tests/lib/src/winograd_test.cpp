@@ -9,18 +9,6 @@
 
 using namespace srisp;
 
-namespace {
-
-std::vector<float> random_values(Random& random, std::size_t count)
-{
-    std::vector<float> values(count);
-    for (float& value : values)
-        value = random.uniform(-1, 1);
-    return values;
-}
-
-} // namespace
-
 TEST_CASE("six rows at once are the plain sums, on every instruction set and for widths that fill no block")
 {
     constexpr int inputs = 32;
