@@ -86,6 +86,11 @@ std::vector<AddedVariable> new_variables(const OCIO::ConstConfigRcPtr& config)
     return variables;
 }
 
+bool has_search_path(const OCIO::ConstConfigRcPtr& config)
+{
+    return *config->getSearchPath() != '\0';
+}
+
 std::string extended_text(const std::string& text, const OCIO::ConstConfigRcPtr& config, const LinearSrgb& linear)
 {
     YamlSections sections(text);
@@ -95,12 +100,14 @@ std::string extended_text(const std::string& text, const OCIO::ConstConfigRcPtr&
     if (sections.has("environment"))
         for (const AddedVariable& variable : new_variables(config))
             sections.append("environment", { variable.line() });
+    if (!has_search_path(config)) // built-in configs; with files, OpenColorIO takes no config for valid that has none
+        sections.set("search_path", ".");
     sections.append("looks", entries.looks);
     sections.append("colorspaces", entries.colorspaces);
     return sections.text();
 }
 
-/// The config without what was added to it, in OpenColorIO's own words.
+/// The config without what was changed in it, in OpenColorIO's own words.
 std::string without_additions(const OCIO::ConstConfigRcPtr& extended, const OCIO::ConstConfigRcPtr& original)
 {
     auto config = extended->createEditableCopy();
@@ -117,6 +124,7 @@ std::string without_additions(const OCIO::ConstConfigRcPtr& extended, const OCIO
         config->addLook(look);
     for (const AddedVariable& variable : new_variables(original))
         config->addEnvironmentVar(variable.name.c_str(), nullptr);
+    config->setSearchPath(original->getSearchPath());
     return serialized(config);
 }
 
@@ -151,7 +159,7 @@ fs::path neutral_folder(const OCIO::ConstConfigRcPtr& config, const std::string&
         if (folder.find_first_of("$%") == std::string::npos)
             return (own / folder).lexically_normal();
     }
-    if (config->getNumSearchPaths() > 0)
+    if (has_search_path(config))
         fail("its search path has variables only, so there is no folder for the neutral bakes");
     return own;
 }
@@ -202,7 +210,8 @@ FragmentReport add_checked(const std::string& path, const std::string& output, c
     if (const Status status = write_output_file(output, extended); !status)
         fail(status.error().message);
     bakes.keep();
-    return { output, folder.string(), linear.found_by, YamlSections(text).has("environment") };
+    return { output, folder.string(), linear.found_by, YamlSections(text).has("environment"),
+             has_search_path(original) };
 }
 
 } // namespace
@@ -228,6 +237,8 @@ std::string fragment_text(const FragmentReport& report)
                        ": looks 'srisp unprocess' and 'srisp process', colour spaces 'srisp camera RGB' and three "
                        "more\n  linear sRGB: " +
                        report.linear_srgb + "\n  neutral bakes: " + report.neutral_folder + "\n";
+    if (!report.search_path)
+        text += "  Its search path was empty, and is '.' now: its own folder.\n";
     if (!report.environment_section)
         text +=
             "  It has no environment section, so none was made: always set SRISP_REFERENCE (srisp_neutral: none).\n";

@@ -101,6 +101,15 @@ void YamlSections::append(const std::string& section, const std::vector<std::str
     m_lines.insert(m_lines.begin() + std::ptrdiff_t(end), added.begin(), added.end());
 }
 
+void YamlSections::set(const std::string& section, const std::string& value)
+{
+    const std::string line = section + ": " + value;
+    if (has(section))
+        m_lines[find(section)] = line;
+    else
+        m_lines.insert(m_lines.end(), { "", line });
+}
+
 std::string YamlSections::text() const
 {
     std::string text;

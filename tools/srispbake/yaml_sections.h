@@ -17,6 +17,8 @@ public:
     /// in the first column, indented by two; they get the indentation of the entries that are there. Throws Failure: a
     /// section that is written in braces or brackets.
     void append(const std::string& section, const std::vector<std::string>& lines);
+    /// Gives a section that is empty or missing a value on its line.
+    void set(const std::string& section, const std::string& value);
     std::string text() const;
 
 private:

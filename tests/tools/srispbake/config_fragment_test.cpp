@@ -123,6 +123,25 @@ TEST_CASE("an environment section is added to, and never made")
     CHECK(fragment_text(report).find("always set SRISP_REFERENCE") != std::string::npos);
 }
 
+TEST_CASE("a config in the form of OpenColorIO's built-in ones, without a search path, gets one")
+{
+    const std::string rest = std::string(kStudio).substr(std::string(kStudio).find('\n') + 1);
+    for (const char* path : { "search_path: \"\"\n", "" }) {
+        const ScratchFolder folder;
+        const std::string config =
+            folder.file("c.ocio", "ocio_profile_version: 2.1\n\nenvironment:\n  {}\n" + std::string(path) + rest);
+        const FragmentReport report = add_fragment(config, "", "");
+        CHECK(!report.search_path);
+        CHECK(fragment_text(report).find("is '.' now") != std::string::npos);
+        CHECK(added_lines(rest, text_of(config)).find("search_path: .\n") != std::string::npos);
+        const auto loaded = OCIO::Config::CreateFromFile(config.c_str());
+        loaded->validate();
+        float rgb[] = { 0.5f, 0.5f, 0.5f };
+        loaded->getProcessor("srisp sRGB", "srisp camera RGB")->getDefaultCPUProcessor()->applyRGB(rgb);
+        CHECK(rgb[1] == doctest::Approx(0.21404).epsilon(1e-4)); // the neutral bake, found in the config's folder
+    }
+}
+
 TEST_CASE("variables that the config declares keep their values")
 {
     const ScratchFolder folder;

@@ -29,6 +29,18 @@ TEST_CASE("an empty section is filled, a missing one is made")
     CHECK(!YamlSections("looks_like: 1\n").has("looks"));
 }
 
+TEST_CASE("a value is put where there is none")
+{
+    for (const char* text : { "path: \"\"\nv: 1\n", "path:\nv: 1\n" }) {
+        YamlSections sections(text);
+        sections.set("path", ".");
+        CHECK(sections.text() == "path: .\nv: 1\n");
+    }
+    YamlSections sections("v: 1\n");
+    sections.set("path", ".");
+    CHECK(sections.text() == "v: 1\n\npath: .\n");
+}
+
 TEST_CASE("a section in brackets is not taken apart")
 {
     CHECK(failure_of([] { appended("looks: [!<Look> {name: x}]\n"); }).find("1: section 'looks' is written as '[") ==
