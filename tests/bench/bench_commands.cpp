@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
@@ -23,19 +22,6 @@ double command_seconds(const std::string& command)
     });
 }
 
-/// What a shell command prints. Throws where it fails.
-std::string output_of(const std::string& command)
-{
-    std::FILE* const pipe = popen(command.c_str(), "r");
-    if (!pipe)
-        throw std::runtime_error("failed: " + command);
-    char text[256];
-    const std::string output(text, std::fread(text, 1, sizeof text, pipe));
-    if (pclose(pipe) != 0)
-        throw std::runtime_error("failed: " + command);
-    return output;
-}
-
 BenchLine start_up_line(const std::string& name, const std::string& ours, const std::string& stock,
                         const std::string& what)
 {
@@ -49,31 +35,6 @@ BenchLine start_up_line(const std::string& name, const std::string& ours, const 
 }
 
 } // namespace
-
-/// Only where the trainer was built.
-BenchLines bench_torch(const BenchSettings& settings)
-{
-    const std::string program = settings.bin + "/torchbench";
-    if (!std::filesystem::exists(program))
-        return {};
-    const BenchFixture fixture(settings);
-    const auto applier = fixture.applier();
-    const auto ns_per_pixel = [&](const char* how) {
-        return std::stod(output_of("OMP_WAIT_POLICY=passive " + srisp::shell_line({ program, "--megapixels", "6" }) +
-                                   " --threads " + std::to_string(settings.threads) + how));
-    };
-    std::vector<double> plain, tuned;
-    double ours = 0;
-    for (int i = 0; i < 3; ++i) {
-        Picture picture = bench_picture(settings, 3000, 2000);
-        ours = apply_seconds(*applier, picture, settings.threads) * 1e9 / 6e6;
-        plain.push_back(ns_per_pixel("") / ours);
-        tuned.push_back(ns_per_pixel(" --tuned") / ours);
-    }
-    return { { "libtorch", median(plain), "x", ">= 12",
-               "LibTorch eager's time for 6 Mpx, base: apply, " + digits(ours, 0) + " ns per pixel" },
-             { "libtorch_tuned", median(tuned), "x", "", "the same as our trainer does it" } };
-}
 
 BenchLines bench_commands(const BenchSettings& settings)
 {

@@ -29,6 +29,6 @@ BenchLines bench_apply(const BenchSettings& settings);
 BenchLines bench_sizes(const BenchSettings& settings);
 BenchLines bench_select(const BenchSettings& settings);
 BenchLines bench_reference(const BenchSettings& settings);
-BenchLines bench_torch(const BenchSettings& settings);
+BenchLines bench_libraries(const BenchSettings& settings);
 BenchLines bench_ocio(const BenchSettings& settings);
 BenchLines bench_commands(const BenchSettings& settings);

@@ -16,8 +16,9 @@ struct Part {
     BenchLines (*measure)(const BenchSettings&);
 };
 
-constexpr Part kParts[] = { { "apply", bench_apply },         { "sizes", bench_sizes }, { "select", bench_select },
-                            { "reference", bench_reference }, { "torch", bench_torch }, { "ocio", bench_ocio },
+constexpr Part kParts[] = { { "apply", bench_apply },         { "sizes", bench_sizes },
+                            { "select", bench_select },       { "reference", bench_reference },
+                            { "libraries", bench_libraries }, { "ocio", bench_ocio },
                             { "commands", bench_commands } };
 
 void print(const BenchLine& line)

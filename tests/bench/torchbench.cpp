@@ -29,11 +29,10 @@ static torch::Tensor plain_tone_map(const torch::Tensor& image, const Choice& ch
 int main(int argc, char** argv)
 {
     double megapixels = 6;
-    int threads = 1;
     bool tuned = false;
-    CLI::App app{ "Prints the nanoseconds per pixel that LibTorch takes for the reverse pass of a spatial model." };
+    CLI::App app{ "Prints the nanoseconds per pixel that LibTorch takes for the reverse pass of a spatial model.\n"
+                  "Threads: OMP_NUM_THREADS." };
     app.add_option("--megapixels", megapixels)->capture_default_str()->check(CLI::Range(0.01, 100.0));
-    app.add_option("--threads", threads)->capture_default_str()->check(CLI::Range(1, 1024));
     app.add_flag("--tuned", tuned, "as the trainer does it: memory kept, wider last layer, borders in place");
     try {
         app.parse(argc, argv);
@@ -42,9 +41,7 @@ int main(int argc, char** argv)
     }
     try {
         if (tuned)
-            set_up_process(threads);
-        else
-            at::set_num_threads(threads);
+            set_up_process(at::get_num_threads());
         const torch::NoGradGuard no_gradient;
         const std::shared_ptr<Unprocessor> network = make_unprocessor(ModelSettings(), 1);
         const torch::Tensor thumbnail = torch::rand({ 1, 3, 64, 64 });
