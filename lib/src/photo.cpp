@@ -92,6 +92,27 @@ OIIO::ImageSpec make_output_spec(const OIIO::ImageSpec& photo, const ColorChanne
     return spec;
 }
 
+/// Into [0,1]; what is not a number becomes 0.
+void bound_values(const float* in, std::int64_t count, float* out, PhotoCounts& counts)
+{
+    constexpr std::int64_t block = 1024; // counted in ints, which vectorise
+    for (std::int64_t first = 0; first < count; first += block) {
+        const std::int64_t last = std::min(first + block, count);
+        int replaced = 0, clipped = 0;
+        for (std::int64_t i = first; i < last; ++i) {
+            const float value = in[i];
+            replaced += value != value;
+            // Rounding of 8-bit associated colour is no clipping.
+            clipped += (value < -0.002f) | (value > 1.002f);
+            const float above = value > 0 ? value : 0; // NaN, too
+            out[i] = above < 1 ? above : 1;
+        }
+        counts.replaced += replaced;
+        counts.clipped += clipped;
+    }
+    counts.values += count;
+}
+
 } // namespace
 
 struct PhotoConverter::State {
@@ -114,6 +135,19 @@ struct PhotoConverter::State {
             if (pixel[c] != 0)
                 return false;
         return true;
+    }
+    /// Whether pixels are stored as they are wanted.
+    bool is_plain_rgb() const { return stored_channels == 3 && channels.color == std::vector{ 0, 1, 2 }; }
+    /// Three values of each pixel, not multiplied by alpha any more.
+    void pick_colors(const float* stored, std::int64_t pixels, float* rgb) const
+    {
+        const std::vector<int>& color = channels.color;
+        for (std::int64_t i = 0; i < pixels; ++i, stored += stored_channels) {
+            const float opacity = straight ? 1 : alpha(stored);
+            const float scale = opacity > 0 ? 1 / opacity : 1;
+            for (int c = 0; c < 3; ++c)
+                *rgb++ = stored[color[color.size() == 3 ? c : 0]] * scale;
+        }
     }
 };
 
@@ -173,25 +207,14 @@ const std::vector<std::string>& PhotoConverter::notes() const
 void PhotoConverter::to_rgb(const float* stored, std::int64_t pixels, float* rgb, PhotoCounts& counts) const
 {
     const State& state = *m_state;
-    const std::vector<int>& color = state.channels.color;
-    counts.values += pixels * 3;
-    for (std::int64_t i = 0; i < pixels; ++i) {
-        const float* in = stored + i * state.stored_channels;
-        const float alpha = state.straight ? 1 : state.alpha(in);
-        const float scale = alpha > 0 ? 1 / alpha : 1;
-        for (int c = 0; c < 3; ++c) {
-            float value = in[color[color.size() == 3 ? c : 0]];
-            if (std::isnan(value)) {
-                value = 0;
-                ++counts.replaced;
-            }
-            value *= scale;
-            // Rounding of 8-bit associated colour is no clipping.
-            counts.clipped += value < -0.002f || value > 1.002f;
-            value = std::min(std::max(value, 0.0f), 1.0f);
-            rgb[i * 3 + c] = state.linear ? srgb_encoded(value) : value;
-        }
+    if (state.is_plain_rgb())
+        bound_values(stored, pixels * 3, rgb, counts);
+    else {
+        state.pick_colors(stored, pixels, rgb);
+        bound_values(rgb, pixels * 3, rgb, counts);
     }
+    if (state.linear)
+        std::transform(rgb, rgb + pixels * 3, rgb, srgb_encoded);
     if (state.transform)
         counts.clipped += state.transform->apply(rgb, pixels);
 }
