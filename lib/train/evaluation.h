@@ -66,7 +66,7 @@ private:
 };
 
 /// Runs a method on all test images, without gradients, on the device where its parameters are. `progress` gets the
-/// part that is done, 0 … 1, now and then.
+/// number of crops that are done, now and then.
 Scores evaluate(Unprocessor& method, const EvaluationSet& set, const std::function<void(int)>& progress = {});
 
 } // namespace srisp::train

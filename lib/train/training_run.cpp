@@ -61,6 +61,8 @@ Expected<RunEnd> TrainingRun::go(const std::function<bool()>& stop)
             return end_badly("the loss explodes: smoothed " + std::to_string(m_smoothed_loss) + " at step " + number +
                              ", lowest " + std::to_string(m_lowest_loss));
         add_up(step);
+        if (m_trainer.steps_done() % m_settings.validate_every == 0 || m_trainer.finished())
+            m_group.rank_0_alone([&](const std::function<void()>& still_there) { validate(still_there); });
         if (m_group.writes()) {
             report(step);
             checkpoint(When::at_interval);
@@ -93,8 +95,6 @@ void TrainingRun::add_up(const StepReport& step)
 void TrainingRun::report(const StepReport& step)
 {
     const std::int64_t done = m_trainer.steps_done();
-    if (done % m_settings.validate_every == 0 || m_trainer.finished())
-        validate();
     Progress progress;
     progress.step = done;
     progress.steps = m_steps;
@@ -130,10 +130,10 @@ void TrainingRun::log(const nlohmann::ordered_json& entry)
     m_log_failed = !status;
 }
 
-void TrainingRun::validate()
+void TrainingRun::validate(const std::function<void()>& still_there)
 {
     const std::int64_t step = m_trainer.steps_done();
-    const std::optional<Validation> result = m_host.validate(m_trainer.averaged_model());
+    const std::optional<Validation> result = m_host.validate(m_trainer.averaged_model(), still_there);
     m_last_validation = result;
     if (result)
         log({ { "step", step },

@@ -53,8 +53,9 @@ struct Progress {
 class RunHost {
 public:
     virtual ~RunHost() = default;
-    /// Tests a model; nothing where there is nothing to test on.
-    virtual std::optional<Validation> validate(Unprocessor& model) = 0;
+    /// Tests a model; nothing where there is nothing to test on. Calls `still_there` now and then: other processes
+    /// wait.
+    virtual std::optional<Validation> validate(Unprocessor& model, const std::function<void()>& still_there) = 0;
     /// Writes a model file.
     virtual Status save_model(Unprocessor& model, const std::string& path, const std::optional<Validation>& result,
                               std::int64_t step) = 0;
@@ -90,7 +91,7 @@ private:
     bool diverges(double loss);
     void add_up(const StepReport& report);
     void report(const StepReport& step);
-    void validate();
+    void validate(const std::function<void()>& still_there);
     void checkpoint(When when);
     double seconds() const;
     void log(const nlohmann::ordered_json& entry);

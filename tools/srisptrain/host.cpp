@@ -8,11 +8,12 @@ namespace srisp {
 
 using namespace train;
 
-std::optional<Validation> Host::validate(Unprocessor& model)
+std::optional<Validation> Host::validate(Unprocessor& model, const std::function<void()>& still_there)
 {
     if (!m_session.tests)
         return {};
-    return validation_of(evaluate(model, *m_session.tests), m_session.settings().validation.score);
+    return validation_of(evaluate(model, *m_session.tests, [&](int) { still_there(); }),
+                         m_session.settings().validation.score);
 }
 
 Status Host::save_model(Unprocessor& model, const std::string& path, const std::optional<Validation>& result,

@@ -11,7 +11,8 @@ class Host : public train::RunHost {
 public:
     Host(const Session& session, bool quiet) : m_session(session), m_line(quiet) {}
 
-    std::optional<train::Validation> validate(train::Unprocessor& model) override;
+    std::optional<train::Validation> validate(train::Unprocessor& model,
+                                              const std::function<void()>& still_there) override;
     Status save_model(train::Unprocessor& model, const std::string& path,
                       const std::optional<train::Validation>& result, std::int64_t step) override;
     void progress(const train::Progress& progress) override { m_line.show(progress); }

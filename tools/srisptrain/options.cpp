@@ -48,8 +48,7 @@ void describe_options(CLI::App& app, Options& options)
     app.add_option("--rank", options.rank, "which of them this is, from 0; 0 writes the files")
         ->check(CLI::Range(0, 99'999));
     app.add_option("--address", options.address, "host:port of rank 0, where they meet");
-    app.add_option("--timeout", options.timeout_s,
-                   "seconds that a process waits for another one; must exceed the time of a validation")
+    app.add_option("--timeout", options.timeout_s, "seconds that a process waits for another one")
         ->check(CLI::Range(1, 100'000));
     app.add_flag("-q,--quiet", options.quiet, "no progress");
 }

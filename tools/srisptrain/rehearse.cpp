@@ -95,7 +95,7 @@ int rehearse(Session& session, const Options& options)
                             }
                         }) /
                         kMeasured;
-    const double validation = seconds_of([&] { host.validate(trainer.averaged_model()); });
+    const double validation = seconds_of([&] { host.validate(trainer.averaged_model(), [] {}); });
     if (!session.group->writes())
         return 0;
     const int validations = (recipe.trainer.steps + recipe.run.validate_every - 1) / recipe.run.validate_every;

@@ -96,7 +96,7 @@ int test_only(Session& session, const Options& options)
     OutputFolder folder(recipe.output);
     folder.clear();
     host.note("'" + recipe.model.method + "' has nothing to learn: it is only tested");
-    const std::optional<Validation> result = host.validate(*session.model);
+    const std::optional<Validation> result = host.validate(*session.model, [] {});
     write_or_fail(folder.file(kRecipeFile), recipe_text(recipe));
     RunLog log(recipe.output);
     if (const Status status = log.add({ { "step", 0 },
