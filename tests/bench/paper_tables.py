@@ -70,7 +70,8 @@ def folder_of(options, row, seed):
 
 def train(options, row, recipe, seed):
     common = [f"seed={seed}", f"steps={options.steps}", f"validate_every={options.steps}", "pairs=4",
-              "validation.set.real_images=1", "validation.set.simulated_images=1", "anchor_fit.pairs=8000"]
+              "validation.set.real_images=1", "validation.set.simulated_images=1", "anchor_fit.pairs=8000",
+              "anchor_fit.steps=3000"]
     settings = common + (["unpaired=2"] if recipe[0] in ("default", "paper", "no_dps", "merged_gain", "static_tone",
                                                          "tone_1x1", "mt_real_reference") else ["unpaired=0"])
     command = [options.bin + "/srisptrain", recipe[0], "--pack", options.pack, "-o", folder_of(options, row, seed),
