@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 
 #include <srisp/thumbnail.h>
 
@@ -24,29 +25,41 @@ std::vector<Shares> shares_by_cell(int count)
     return cells;
 }
 
-/// One row of the thumbnail of a mosaic. `rows`: the sensor rows that it covers.
+/// The colour of each pixel in the rows of the filter pattern.
+std::vector<std::uint8_t> pattern_colors(const CfaPattern& cfa, int width)
+{
+    std::vector<std::uint8_t> colors;
+    for (int row = 0; row < cfa.rows; ++row)
+        for (int x = 0; x < width; ++x)
+            colors.push_back(std::uint8_t(cfa.color(row, x)));
+    return colors;
+}
+
+/// One row of the thumbnail of a mosaic. `rows`: the sensor rows that it covers; `colors`: pattern_colors.
 void average_mosaic_row(const RawPixels& pixels, const RowScaler& scaler, const Shares& rows,
-                        const std::vector<Shares>& columns, float* target)
+                        const std::vector<Shares>& columns, const std::vector<std::uint8_t>& colors, float* target)
 {
     const CfaPattern& cfa = pixels.cfa;
     const std::size_t width = std::size_t(pixels.width);
     std::vector<float> line(width);
-    // Sums down the columns, apart for each row of the pattern, so that a place in it has one colour.
-    std::vector<double> sums(width * std::size_t(cfa.rows));
+    // Sums down the columns, apart for each row of the pattern, so that a place in it has one colour. Floats: a cell
+    // has some dozen rows, and its columns are added up in double.
+    std::vector<float> sums(width * std::size_t(cfa.rows));
     std::vector<double> lengths(std::size_t(cfa.rows));
     for (const auto& row : rows) {
         scaler.scale(row.input, line.data());
-        double* sum = sums.data() + width * std::size_t(row.input % cfa.rows);
+        float* sum = sums.data() + width * std::size_t(row.input % cfa.rows);
+        const float length = float(row.length);
         for (std::size_t x = 0; x < width; ++x)
-            sum[x] += row.length * double(line[x]);
+            sum[x] += length * line[x];
         lengths[std::size_t(row.input % cfa.rows)] += row.length;
     }
     for (std::size_t cell = 0; cell < columns.size(); ++cell) {
         std::array<double, 3> total{}, area{};
         for (int row = 0; row < cfa.rows; ++row)
             for (const auto& column : columns[cell]) {
-                const std::size_t color = std::size_t(cfa.color(row, column.input));
-                total[color] += column.length * sums[width * std::size_t(row) + std::size_t(column.input)];
+                const std::size_t place = width * std::size_t(row) + std::size_t(column.input), color = colors[place];
+                total[color] += column.length * double(sums[place]);
                 area[color] += column.length * lengths[std::size_t(row)];
             }
         for (std::size_t c = 0; c < 3; ++c)
@@ -58,9 +71,10 @@ Thumbnail average_mosaic(const RawPixels& pixels)
 {
     const RowScaler scaler(pixels);
     const std::vector<Shares> rows = shares_by_cell(pixels.height), columns = shares_by_cell(pixels.width);
+    const std::vector<std::uint8_t> colors = pattern_colors(pixels.cfa, pixels.width);
     Thumbnail thumbnail;
     parallel_tasks(kThumbnailSize, 0, [&](std::int64_t y) {
-        average_mosaic_row(pixels, scaler, rows[std::size_t(y)], columns,
+        average_mosaic_row(pixels, scaler, rows[std::size_t(y)], columns, colors,
                            thumbnail.rgb.data() + std::size_t(y) * kThumbnailSize * 3);
     });
     return thumbnail;
