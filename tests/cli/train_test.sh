@@ -127,7 +127,7 @@ tested_only() {
 check "a method without parameters is tested" tested_only
 rehearsed() {
     "$train" tiny.json -o dry --dry-run --threads 1 >plan || return 1
-    grep -q "^a step " plan && grep -q "^memory " plan && [ ! -e dry ]
+    grep -q "^a step " plan && grep -q "^anchor .*before the first step" plan && grep -q "^memory " plan && [ ! -e dry ]
 }
 check "--dry-run says what would be done, and writes nothing" rehearsed
 on_a_terminal() {

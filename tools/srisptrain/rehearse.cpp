@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
 #include <ATen/Parallel.h>
 
 #include "../common/progress_meter.h"
+#include "anchor_fit.h"
 #include "host.h"
 #include "output_folder.h"
 #include "train.h"
@@ -18,6 +20,7 @@ using namespace train;
 namespace {
 
 constexpr int kWarmUp = 2, kMeasured = 4; // steps
+constexpr int kAnchorPairs = 512, kAnchorSteps = 100;
 
 double seconds_of(const std::function<void()>& work)
 {
@@ -48,7 +51,8 @@ void print_inputs(const Session& session)
         std::printf("validation  none: %s\n", session.tests_missing.c_str());
 }
 
-void print_output(const Session& session, const Options& options)
+/// Whether it starts at step 0 is returned, too.
+bool print_output(const Session& session, const Options& options)
 {
     const Recipe& recipe = session.settings();
     const auto state = options.restart ? std::nullopt : find_checkpoint(recipe.output, recipe, session.pack->hash());
@@ -56,6 +60,26 @@ void print_output(const Session& session, const Options& options)
                 state
                     ? ("goes on from step " + std::to_string(static_cast<long long>(state->numbers.at("step")))).c_str()
                     : "starts at step 0");
+    return !state;
+}
+
+/// Seconds that fitting the anchor will take, from a few of its pairs and steps; 0 where there is none to fit.
+double anchor_seconds(Session& session)
+{
+    const Recipe& recipe = session.settings();
+    if (!recipe.init.empty())
+        return 0;
+    AnchorFitSettings few = recipe.anchor_fit;
+    few.pairs = std::min(few.pairs, kAnchorPairs);
+    bool fitted = false;
+    const auto fit_seconds = [&](int steps) {
+        few.steps = steps;
+        return seconds_of([&] {
+            fitted = start_anchor(*session.model, *session.samples, few, std::uint64_t(recipe.seed)).has_value();
+        });
+    };
+    const double pairs = fit_seconds(1), steps = std::max(fit_seconds(1 + kAnchorSteps) - pairs, 0.0);
+    return fitted ? pairs * recipe.anchor_fit.pairs / few.pairs + steps * recipe.anchor_fit.steps / kAnchorSteps : 0;
 }
 
 /// MB that this process had at most so far.
@@ -71,9 +95,11 @@ double peak_memory_mb()
 int rehearse(Session& session, const Options& options)
 {
     const Recipe& recipe = session.settings();
+    double anchor = 0;
     if (session.group->writes()) {
         print_inputs(session);
-        print_output(session, options);
+        if (print_output(session, options) && session.learns())
+            anchor = anchor_seconds(session);
     }
     if (!session.learns())
         return 0;
@@ -101,8 +127,10 @@ int rehearse(Session& session, const Options& options)
     const int validations = (recipe.trainer.steps + recipe.run.validate_every - 1) / recipe.run.validate_every;
     std::printf("a step      %.3f s (forward and backward %.0f %%, making the batch %.0f %%), a validation %.1f s\n",
                 step, 100 * learning / (step * kMeasured), 100 * data / (step * kMeasured), validation);
+    if (anchor > 0)
+        std::printf("anchor      about %s before the first step\n", duration_text(anchor).c_str());
     std::printf("in all      %d steps: about %s\n", recipe.trainer.steps,
-                duration_text(recipe.trainer.steps * step + validations * validation).c_str());
+                duration_text(anchor + recipe.trainer.steps * step + validations * validation).c_str());
     std::printf("memory      %.0f MB of this process\n", peak_memory_mb());
     return 0;
 }
