@@ -14,10 +14,10 @@ struct ValidationSettings {
 
     template<class Visitor> void describe(Visitor& v)
     {
-        v.choice(
-            "score", score, { "real", "simulated", "all" },
-            "the model with the highest mean of PSNR (dB) - angular error (degrees) over these test images, in both "
-            "renderings, is kept");
+        v.choice("score", score, { "real", "simulated", "all" },
+                 "the model with the highest mean of PSNR (dB) - angular error (degrees) - 10 x highlight error over "
+                 "these test "
+                 "images, in both renderings, is kept");
         v.group("set", set);
     }
 };
