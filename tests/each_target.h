@@ -7,18 +7,37 @@
 #include <doctest/doctest.h>
 #include <hwy/highway.h>
 
+#include "bf16_convolution.h"
+
+/// Lets dispatch choose among these instruction sets only; 0: all that the machine has.
+inline void force_targets(std::int64_t targets)
+{
+    hwy::SetSupportedTargetsForTest(targets);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
 /// Calls `body` once per instruction set that this machine has and the build contains, with dispatch forced to it.
 template<class Body> void on_each_instruction_set(Body body)
 {
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        force_targets(target);
         INFO("instruction set ", std::string(hwy::TargetName(target)));
         body();
 #ifdef __SANITIZE_ADDRESS__
         break; // the sanitizers make kernels 50 times slower; the widest vectors reach furthest past an end
 #endif
     }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    force_targets(0);
+}
+
+/// Calls `body` for each way in which Precision::fast is computed on this machine.
+template<class Body> void on_each_fast_method(Body body)
+{
+    body();
+    if (!srisp::has_bf16())
+        return;
+    force_targets(HWY_AVX2);
+    INFO("without bf16");
+    body();
+    force_targets(0);
 }

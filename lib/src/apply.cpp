@@ -65,6 +65,8 @@ private:
 
 void gather(const float* pixel, std::ptrdiff_t x_stride, int count, Planes row)
 {
+    if (x_stride == 3)
+        return split_channels(pixel, row, count);
     for (int x = 0; x < count; ++x, pixel += x_stride)
         for (int c = 0; c < 3; ++c)
             row.plane(c)[x] = pixel[c];
@@ -72,6 +74,8 @@ void gather(const float* pixel, std::ptrdiff_t x_stride, int count, Planes row)
 
 void scatter(Planes row, int count, float* pixel, std::ptrdiff_t x_stride)
 {
+    if (x_stride == 3)
+        return join_channels(row, pixel, count);
     for (int x = 0; x < count; ++x, pixel += x_stride)
         for (int c = 0; c < 3; ++c)
             pixel[c] = row.plane(c)[x];
@@ -243,7 +247,7 @@ Expected<std::shared_ptr<const Applier>> Applier::create(const Model& model, con
         auto pipeline = std::make_unique<Pipeline>();
         pipeline->direction = direction;
         pipeline->tone_map = mix_tone_map(reverse ? model.data().tone_reverse : model.data().tone_forward,
-                                          parameters.tone_weights, precision);
+                                          parameters.tone_weights, tone_method(precision));
         pipeline->color = reverse ? inverse(parameters.color) : parameters.color;
         pipeline->exponent = reverse ? parameters.gamma : 1 / parameters.gamma;
         for (int c = 0; c < 3; ++c) {

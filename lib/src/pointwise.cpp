@@ -159,6 +159,34 @@ void inverse_gain(Planes in, Planes out, std::size_t count, const float scales[3
     });
 }
 
+void split_channels(const float* rgb, Planes out, std::size_t count)
+{
+    const D d;
+    std::size_t x = 0;
+    for (const std::size_t n = hn::Lanes(d); x + n <= count; x += n) {
+        V r, g, b;
+        hn::LoadInterleaved3(d, rgb + 3 * x, r, g, b);
+        hn::StoreU(r, d, out.plane(0) + x);
+        hn::StoreU(g, d, out.plane(1) + x);
+        hn::StoreU(b, d, out.plane(2) + x);
+    }
+    for (; x < count; ++x)
+        for (int c = 0; c < 3; ++c)
+            out.plane(c)[x] = rgb[3 * x + c];
+}
+
+void join_channels(Planes in, float* rgb, std::size_t count)
+{
+    const D d;
+    std::size_t x = 0;
+    for (const std::size_t n = hn::Lanes(d); x + n <= count; x += n)
+        hn::StoreInterleaved3(hn::LoadU(d, in.plane(0) + x), hn::LoadU(d, in.plane(1) + x),
+                              hn::LoadU(d, in.plane(2) + x), d, rgb + 3 * x);
+    for (; x < count; ++x)
+        for (int c = 0; c < 3; ++c)
+            rgb[3 * x + c] = in.plane(c)[x];
+}
+
 } // namespace HWY_NAMESPACE
 } // namespace srisp
 HWY_AFTER_NAMESPACE();
@@ -171,6 +199,8 @@ HWY_EXPORT(power);
 HWY_EXPORT(color_transform);
 HWY_EXPORT(multiply);
 HWY_EXPORT(inverse_gain);
+HWY_EXPORT(split_channels);
+HWY_EXPORT(join_channels);
 
 void clamp01(Planes in, Planes out, std::size_t count)
 {
@@ -191,6 +221,15 @@ void multiply(Planes in, Planes out, std::size_t count, const float gains[3])
 void inverse_gain(Planes in, Planes out, std::size_t count, const float scales[3])
 {
     HWY_DYNAMIC_DISPATCH(inverse_gain)(in, out, count, scales);
+}
+
+void split_channels(const float* rgb, Planes out, std::size_t count)
+{
+    HWY_DYNAMIC_DISPATCH(split_channels)(rgb, out, count);
+}
+void join_channels(Planes in, float* rgb, std::size_t count)
+{
+    HWY_DYNAMIC_DISPATCH(join_channels)(in, rgb, count);
 }
 
 namespace scalar {

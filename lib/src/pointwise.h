@@ -32,6 +32,10 @@ void multiply(Planes in, Planes out, std::size_t count, const float gains[3]);
 /// m = clamp01((mean(v) − 0.9) / 0.1)².
 void inverse_gain(Planes in, Planes out, std::size_t count, const float scales[3]);
 
+/// Interleaved RGB to planes, and back. Exactly `count` pixels of the interleaved side are touched.
+void split_channels(const float* rgb, Planes out, std::size_t count);
+void join_channels(Planes in, float* rgb, std::size_t count);
+
 /// The same in plain C++ with std::pow: what the vectorised forms are tested against.
 namespace scalar {
 void power(Planes in, Planes out, std::size_t count, float exponent, float floor, float offset);

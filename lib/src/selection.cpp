@@ -145,7 +145,7 @@ private:
 
     void apply_tone_map()
     {
-        const auto tone_map = mix_tone_map(m_model.tone_reverse, m_parameters.tone_weights, Precision::fast);
+        const auto tone_map = mix_tone_map(m_model.tone_reverse, m_parameters.tone_weights, ToneMethod::winograd);
         const auto runner = tone_map->make_runner();
         PlanarThumbnail result;
         const Planes in = m_running.planes(), out = result.planes();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tone_map.h"
 
+#include "bf16_convolution.h"
 #include "rolling_tone_map.h"
 #include "winograd_tone_map.h"
 
@@ -21,16 +22,24 @@ ConvolutionWeights mix_layer(const ConvolutionWeights& dictionary, const std::ve
     return mixed;
 }
 
+ToneMethod tone_method(Precision precision)
+{
+    if (precision == Precision::float32)
+        return ToneMethod::plain;
+    return has_bf16() ? ToneMethod::bf16 : ToneMethod::winograd;
+}
+
 std::unique_ptr<const ToneMap> mix_tone_map(const ToneDictionary& dictionary,
                                             const std::array<std::vector<float>, kToneLayers>& weights,
-                                            Precision precision)
+                                            ToneMethod method)
 {
     std::array<ConvolutionWeights, kToneLayers> layers;
     for (int l = 0; l < kToneLayers; ++l)
         layers[l] = mix_layer(dictionary[l], weights[l]);
-    if (precision == Precision::fast && layers[0].taps == 9)
+    const bool plain = method == ToneMethod::plain || layers[0].taps != 9;
+    if (!plain && method == ToneMethod::winograd)
         return std::make_unique<WinogradToneMap>(layers);
-    return std::make_unique<RollingToneMap>(layers);
+    return std::make_unique<RollingToneMap>(plain ? float_tone_map(layers) : bf16_tone_map(layers));
 }
 
 } // namespace srisp

@@ -49,9 +49,18 @@ public:
 /// Σ_k weights[k] · atom k of a dictionary layer, kernels and biases alike [P eq. 2, 5]; float32.
 ConvolutionWeights mix_layer(const ConvolutionWeights& dictionary, const std::vector<float>& weights);
 
-/// Precision::fast makes a difference to kernels of 3×3 only.
+/// How 3×3 kernels are computed; 1×1 kernels are always plain sums.
+enum class ToneMethod {
+    plain,    ///< plain sums in float32
+    winograd, ///< fewer multiply-adds, in float32
+    bf16      ///< dot products of bf16; only where has_bf16()
+};
+
+/// The method of a precision on this processor.
+ToneMethod tone_method(Precision precision);
+
 std::unique_ptr<const ToneMap> mix_tone_map(const ToneDictionary& dictionary,
                                             const std::array<std::vector<float>, kToneLayers>& weights,
-                                            Precision precision);
+                                            ToneMethod method);
 
 } // namespace srisp

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "bench_fixture.h"
+#include "bf16_convolution.h"
 #include "fma_peak.h"
 #include "measuring.h"
 #include "require.h"
@@ -53,7 +54,13 @@ BenchLine memory_line(const Applier& applier, const BenchSettings& settings)
              "beyond the image of " + digits(settings.megapixels, 1) + " Mpx, in place" };
 }
 
-BenchLine error_line(const BenchFixture& fixture, const BenchSettings& settings)
+/// What Precision::fast is on the instruction set in use.
+std::string fast_method()
+{
+    return has_bf16() ? "bf16" : "minimal filtering";
+}
+
+BenchLine error_line(const BenchFixture& fixture, const BenchSettings& settings, const std::string& suffix)
 {
     const Picture source = bench_picture(settings, 2000, 1500);
     Picture plain = source, fast = source;
@@ -65,9 +72,9 @@ BenchLine error_line(const BenchFixture& fixture, const BenchSettings& settings)
         sum += error;
         largest = std::max(largest, error);
     }
-    return { "fast_error", sum / plain.rgb.size() * 1023, "10-bit codes", "< 1",
+    return { "fast_error" + suffix, sum / plain.rgb.size() * 1023, "10-bit codes", "< 1",
              "mean difference from float32 on " + (settings.photo.empty() ? "a synthetic picture" : settings.photo) +
-                 "; largest " + digits(largest * 1023, 4) };
+                 ", largest " + digits(largest * 1023, 4) + "; " + fast_method() };
 }
 
 BenchLine denormal_line(const Applier& applier, const BenchSettings& settings)
@@ -84,26 +91,38 @@ BenchLine denormal_line(const Applier& applier, const BenchSettings& settings)
     return { "denormals", median(ratios), "x", "about 1", "time for an image of 1e-40, base: an ordinary one" };
 }
 
+/// The peak, apply and its fast form on the instruction set in use; `suffix`: of the lines' names.
+void add_rates(BenchLines& lines, const BenchFixture& fixture, const Picture& picture, const BenchSettings& settings,
+               const std::string& suffix)
+{
+    const Rates rates = measure(*fixture.applier(), fixture.applier(Precision::fast).get(), picture, settings.threads);
+    const std::string size = digits(settings.megapixels, 1) + " Mpx in place, " + std::to_string(settings.threads) +
+                             (settings.threads == 1 ? " thread" : " threads");
+    const std::string set = instruction_set();
+    lines.push_back({ "peak" + suffix, rates.peak / 1e9, "G multiply-adds/s", "", "float32 FMA, " + set });
+    lines.push_back({ "apply" + suffix, 100 * rates.part_of_peak, "% of the peak", ">= 75",
+                      size + ", " + digits(rates.apply_s, 2) + " s, " + set });
+    lines.push_back({ "fast" + suffix, rates.fast_gain, "x", ">= 1.7",
+                      "precision fast (" + fast_method() + "), " + digits(rates.fast_s, 2) + " s; base: float32" });
+    lines.push_back(error_line(fixture, settings, suffix));
+}
+
 } // namespace
 
 BenchLines bench_apply(const BenchSettings& settings)
 {
     const BenchFixture fixture(settings);
-    const auto applier = fixture.applier(), fast_applier = fixture.applier(Precision::fast);
+    const auto applier = fixture.applier();
     const int height = std::max(1, static_cast<int>(settings.megapixels * 1e6 / kWidth));
     const Picture picture = bench_picture(settings, kWidth, height);
-    const std::string size = digits(settings.megapixels, 1) + " Mpx in place, " + std::to_string(settings.threads) +
-                             (settings.threads == 1 ? " thread" : " threads");
-
-    const Rates rates = measure(*applier, fast_applier.get(), picture, settings.threads);
-    BenchLines lines{
-        { "peak", rates.peak / 1e9, "G multiply-adds/s", "", std::string("float32 FMA, ") + instruction_set() },
-        { "apply", 100 * rates.part_of_peak, "% of the peak", ">= 75", size + ", " + digits(rates.apply_s, 2) + " s" },
-        { "fast", rates.fast_gain, "x", ">= 1.7", "precision fast, " + digits(rates.fast_s, 2) + " s; base: float32" },
-        error_line(fixture, settings),
-        memory_line(*applier, settings),
-        denormal_line(*applier, settings),
-    };
+    BenchLines lines;
+    add_rates(lines, fixture, picture, settings, "");
+    if (has_avx512()) {
+        const WithoutAvx512 forced;
+        add_rates(lines, fixture, picture, settings, "_avx2");
+    }
+    lines.push_back(memory_line(*applier, settings));
+    lines.push_back(denormal_line(*applier, settings));
     if (settings.threads > 1) {
         const Picture part = bench_picture(settings, kWidth, std::min(height, 500));
         const Rates one = measure(*applier, nullptr, part, 1), all = measure(*applier, nullptr, part, settings.threads);

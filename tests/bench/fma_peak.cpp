@@ -69,8 +69,27 @@ double measure_fma_peak(int threads)
     return sum;
 }
 
+namespace {
+constexpr std::int64_t kAvx512 = HWY_AVX3 | HWY_AVX3_DL;
+}
+
 const char* instruction_set()
 {
-    return hwy::TargetName(hwy::SupportedTargets() & -hwy::SupportedTargets());
+    return hwy::TargetName(hwy::SupportedAndGeneratedTargets().front());
+}
+
+bool has_avx512()
+{
+    return hwy::SupportedTargets() & kAvx512;
+}
+
+WithoutAvx512::WithoutAvx512()
+{
+    hwy::DisableTargets(kAvx512);
+}
+
+WithoutAvx512::~WithoutAvx512()
+{
+    hwy::DisableTargets(0);
 }
 #endif

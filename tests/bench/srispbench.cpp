@@ -23,7 +23,7 @@ constexpr Part kParts[] = { { "apply", bench_apply },         { "sizes", bench_s
 
 void print(const BenchLine& line)
 {
-    std::printf("%-16s %9.2f %-18s %-9s %s\n", line.name.c_str(), line.value, line.unit.c_str(), line.target.c_str(),
+    std::printf("%-16s %9.4g %-18s %-9s %s\n", line.name.c_str(), line.value, line.unit.c_str(), line.target.c_str(),
                 line.detail.c_str());
     std::fflush(stdout);
 }

@@ -120,102 +120,110 @@ TEST_CASE("the tone map equals a plain one in double, borders included")
             const auto applier = fixture.applier(Direction::reverse, precision);
             const Difference difference = compare(applied(*applier, source).values, expected);
             INFO((precision == Precision::fast ? "fast: " : "float32: "), difference.text);
-            CHECK(difference.largest <= 1e-5);
+            CHECK(difference.largest <= (precision == Precision::fast && has_bf16() ? 2e-3 : 1e-5));
         }
     });
 }
 
-TEST_CASE("fast stays within 1e-4 of float32, and is something else")
+TEST_CASE("fast stays near float32, and is something else")
 {
     const Fixture fixture;
-    for (const Direction direction : { Direction::reverse, Direction::forward }) {
-        const Image source = random_image(200, 300);
-        const Image plain = applied(*fixture.applier(direction), source);
-        const Image fast = applied(*fixture.applier(direction, Precision::fast), source);
-        const Difference difference = compare(fast.values, plain.values);
-        INFO(difference.text);
-        CHECK(difference.percentile_99_9 <= 1e-5);
-        CHECK(difference.largest <= 1e-4);
-        CHECK(difference.largest > 0);
-    }
-    CHECK(fixture.applier(Direction::reverse, Precision::fast)->halo() == 17);
-    CHECK(Fixture(1).applier(Direction::reverse, Precision::fast)->halo() == 0);
+    on_each_fast_method([&] {
+        for (const Direction direction : { Direction::reverse, Direction::forward }) {
+            const Image source = random_image(200, 300);
+            const Image plain = applied(*fixture.applier(direction), source);
+            const Image fast = applied(*fixture.applier(direction, Precision::fast), source);
+            const Difference difference = compare(fast.values, plain.values);
+            INFO(difference.text);
+            CHECK(difference.percentile_99_9 <= (has_bf16() ? 1e-3 : 1e-5));
+            CHECK(difference.largest <= (has_bf16() ? 5e-3 : 1e-4));
+            CHECK(difference.largest > 0);
+        }
+        CHECK(fixture.applier(Direction::reverse, Precision::fast)->halo() == (has_bf16() ? 4 : 17));
+        CHECK(Fixture(1).applier(Direction::reverse, Precision::fast)->halo() == 0);
+    });
 }
 
 TEST_CASE("every size from 1 × 1 gives the same bits with any number of threads")
 {
-    const Fixture fixture;
-    for (const Precision precision : { Precision::float32, Precision::fast }) {
-        const auto applier = fixture.applier(Direction::reverse, precision);
-        for (const auto& [width, height] :
-             { std::pair(1, 1), std::pair(1, 300), std::pair(1000, 1), std::pair(2, 3), std::pair(9, 9),
-               std::pair(187, 20), std::pair(189, 33), std::pair(401, 270) }) {
-            const Image source = random_image(width, height);
-            const Image one = applied(*applier, source, 1);
-            CHECK(std::all_of(one.values.begin(), one.values.end(), [](float v) { return v >= 0 && v <= 1; }));
-            for (const int threads : { 0, 2, 3, 8 }) {
-                INFO(width, " × ", height, ", threads ", threads);
-                CHECK(applied(*applier, source, threads).values == one.values);
+    on_each_fast_method([&] {
+        const Fixture fixture;
+        for (const Precision precision : { Precision::float32, Precision::fast }) {
+            const auto applier = fixture.applier(Direction::reverse, precision);
+            for (const auto& [width, height] :
+                 { std::pair(1, 1), std::pair(1, 300), std::pair(1000, 1), std::pair(2, 3), std::pair(9, 9),
+                   std::pair(187, 20), std::pair(189, 33), std::pair(401, 270) }) {
+                const Image source = random_image(width, height);
+                const Image one = applied(*applier, source, 1);
+                CHECK(std::all_of(one.values.begin(), one.values.end(), [](float v) { return v >= 0 && v <= 1; }));
+                for (const int threads : { 0, 2, 3, 8 }) {
+                    INFO(width, " × ", height, ", threads ", threads);
+                    CHECK(applied(*applier, source, threads).values == one.values);
+                }
             }
         }
-    }
+    });
 }
 
 TEST_CASE("any region of interest, from any part of the image, has the bits of the whole")
 {
-    for (const auto& [kernel_size, precision] :
-         { std::pair(3, Precision::float32), std::pair(3, Precision::fast), std::pair(1, Precision::float32) }) {
-        const Fixture fixture(kernel_size);
-        const auto applier = fixture.applier(Direction::reverse, precision);
-        Image source = random_image(300, 150);
-        Image whole = applied(*applier, source);
-        Random random(5);
-        for (int i = 0; i < 40; ++i) {
-            const int x0 = random.below(300), y0 = random.below(150);
-            const Roi roi{ x0, x0 + 1 + random.below(300 - x0), y0, y0 + 1 + random.below(150 - y0) };
-            const int halo = applier->halo();
-            const int sx = std::max(roi.x0 - halo, 0), sy = std::max(roi.y0 - halo, 0);
-            const ImageView part{ source.view().pixel(sx, sy), std::min(roi.x1 + halo, 300) - sx,
-                                  std::min(roi.y1 + halo, 150) - sy, 3, 900 };
-            Image target{ roi.x1 - roi.x0, roi.y1 - roi.y0 };
-            REQUIRE(applier->run(part, sx, sy, 300, 150, roi, target.view()));
-            bool same = true;
-            for (int y = 0; y < target.height; ++y)
-                same &= std::equal(target.view().pixel(0, y), target.view().pixel(0, y) + 3 * target.width,
-                                   whole.view().pixel(roi.x0, roi.y0 + y));
-            INFO("region [", roi.x0, ", ", roi.x1, ") × [", roi.y0, ", ", roi.y1, "), kernel ", kernel_size, ", halo ",
-                 halo);
-            CHECK(same);
+    on_each_fast_method([&] {
+        for (const auto& [kernel_size, precision] :
+             { std::pair(3, Precision::float32), std::pair(3, Precision::fast), std::pair(1, Precision::float32) }) {
+            const Fixture fixture(kernel_size);
+            const auto applier = fixture.applier(Direction::reverse, precision);
+            Image source = random_image(300, 150);
+            Image whole = applied(*applier, source);
+            Random random(5);
+            for (int i = 0; i < 40; ++i) {
+                const int x0 = random.below(300), y0 = random.below(150);
+                const Roi roi{ x0, x0 + 1 + random.below(300 - x0), y0, y0 + 1 + random.below(150 - y0) };
+                const int halo = applier->halo();
+                const int sx = std::max(roi.x0 - halo, 0), sy = std::max(roi.y0 - halo, 0);
+                const ImageView part{ source.view().pixel(sx, sy), std::min(roi.x1 + halo, 300) - sx,
+                                      std::min(roi.y1 + halo, 150) - sy, 3, 900 };
+                Image target{ roi.x1 - roi.x0, roi.y1 - roi.y0 };
+                REQUIRE(applier->run(part, sx, sy, 300, 150, roi, target.view()));
+                bool same = true;
+                for (int y = 0; y < target.height; ++y)
+                    same &= std::equal(target.view().pixel(0, y), target.view().pixel(0, y) + 3 * target.width,
+                                       whole.view().pixel(roi.x0, roi.y0 + y));
+                INFO("region [", roi.x0, ", ", roi.x1, ") × [", roi.y0, ", ", roi.y1, "), kernel ", kernel_size,
+                     ", halo ", halo);
+                CHECK(same);
+            }
         }
-    }
+    });
 }
 
 TEST_CASE("in place equals a copy, RGBA strides too")
 {
-    const Fixture fixture;
-    for (const Precision precision : { Precision::float32, Precision::fast }) {
-        const auto applier = fixture.applier(Direction::forward, precision);
-        Image source = random_image(230, 1100); // several bands
-        const Image expected = applied(*applier, source);
-        Image rgba{ 230, 1100, 4 };
-        for (int y = 0; y < 1100; ++y)
-            for (int x = 0; x < 230; ++x)
-                std::copy_n(source.view().pixel(x, y), 3, rgba.view().pixel(x, y));
-        for (const int threads : { 1, 3 }) {
-            ApplyOptions options;
-            options.threads = threads;
-            Image in_place = source;
-            REQUIRE(applier->run(in_place.view(), in_place.view(), options));
-            CHECK(in_place.values == expected.values);
+    on_each_fast_method([&] {
+        const Fixture fixture;
+        for (const Precision precision : { Precision::float32, Precision::fast }) {
+            const auto applier = fixture.applier(Direction::forward, precision);
+            Image source = random_image(230, 1100); // several bands
+            const Image expected = applied(*applier, source);
+            Image rgba{ 230, 1100, 4 };
+            for (int y = 0; y < 1100; ++y)
+                for (int x = 0; x < 230; ++x)
+                    std::copy_n(source.view().pixel(x, y), 3, rgba.view().pixel(x, y));
+            for (const int threads : { 1, 3 }) {
+                ApplyOptions options;
+                options.threads = threads;
+                Image in_place = source;
+                REQUIRE(applier->run(in_place.view(), in_place.view(), options));
+                CHECK(in_place.values == expected.values);
+            }
+            REQUIRE(applier->run(rgba.view(), rgba.view()));
+            bool same = true;
+            for (int y = 0; y < 1100; ++y)
+                for (int x = 0; x < 230; ++x)
+                    for (int c = 0; c < 3; ++c)
+                        same &= rgba.view().pixel(x, y)[c] == expected.values[(std::size_t(y) * 230 + x) * 3 + c];
+            CHECK(same);
         }
-        REQUIRE(applier->run(rgba.view(), rgba.view()));
-        bool same = true;
-        for (int y = 0; y < 1100; ++y)
-            for (int x = 0; x < 230; ++x)
-                for (int c = 0; c < 3; ++c)
-                    same &= rgba.view().pixel(x, y)[c] == expected.values[(std::size_t(y) * 230 + x) * 3 + c];
-        CHECK(same);
-    }
+    });
 }
 
 TEST_CASE("progress grows to its end on the caller's thread, and false cancels")

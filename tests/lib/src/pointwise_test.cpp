@@ -122,3 +122,21 @@ TEST_CASE("the highlight-preserving inverse gain has the published values and ke
                 CHECK(image.planes().plane(c)[x] == doctest::Approx(expected[x][c]).epsilon(2e-6));
     });
 }
+
+TEST_CASE("interleaved pixels go to planes and back, and nothing past the last is touched")
+{
+    for (const std::size_t count : { 1, 7, 16, 100 })
+        on_each_instruction_set([&] {
+            INFO(count, " pixels");
+            std::vector<float> rgb(3 * count), back(3 * count + 3, -1.0f);
+            for (std::size_t i = 0; i < rgb.size(); ++i)
+                rgb[i] = static_cast<float>(i);
+            TestPlanes planes{ count };
+            split_channels(rgb.data(), planes.planes(), count);
+            for (int c = 0; c < 3; ++c)
+                CHECK(planes.planes().plane(c)[count - 1] == 3 * (count - 1) + c);
+            join_channels(planes.planes(), back.data(), count);
+            CHECK(std::equal(rgb.begin(), rgb.end(), back.begin()));
+            CHECK(back[3 * count] == -1.0f);
+        });
+}
