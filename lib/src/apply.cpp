@@ -81,6 +81,17 @@ void scatter(Planes row, int count, float* pixel, std::ptrdiff_t x_stride)
             pixel[c] = row.plane(c)[x];
 }
 
+/// The first three channels of a row of pixels, without gaps.
+void copy_rgb(const float* pixel, std::ptrdiff_t x_stride, int count, float* out)
+{
+    if (x_stride == 3) {
+        std::copy_n(pixel, 3 * count, out);
+        return;
+    }
+    for (int x = 0; x < count; ++x, pixel += x_stride)
+        std::copy_n(pixel, 3, out + 3 * x);
+}
+
 /// What follows the tone map in the reverse pass.
 void after_tone_map(const Pipeline& p, Planes row, std::size_t count)
 {
@@ -170,9 +181,11 @@ void run_in_place(const Pipeline& p, const Job& job, int threads, Progress& prog
         const int from = std::max(y0 - halo, first_row), to = std::min(y1 + halo, last_row);
         copy.erase(copy.begin(), copy.begin() + (from - copied_from) * row_floats);
         copy.resize((to - from) * row_floats);
-        for (int y = copied_to; y < to; ++y)
-            for (int x = 0; x < job.source.width; ++x)
-                std::copy_n(job.source.pixel(x, y - job.source_y), 3, &copy[(y - from) * row_floats + 3 * x]);
+        parallel_tasks(to - copied_to, threads, [&](std::int64_t row) {
+            const int y = copied_to + static_cast<int>(row);
+            copy_rgb(job.source.pixel(0, y - job.source_y), job.source.x_stride, job.source.width,
+                     &copy[(y - from) * row_floats]);
+        });
         copied_from = from;
         copied_to = to;
 

@@ -25,24 +25,36 @@ std::vector<Shares> shares_by_cell(int count)
     return cells;
 }
 
-/// The colour of each pixel in the rows of the filter pattern.
-std::vector<std::uint8_t> pattern_colors(const CfaPattern& cfa, int width)
-{
-    std::vector<std::uint8_t> colors;
-    for (int row = 0; row < cfa.rows; ++row)
-        for (int x = 0; x < width; ++x)
-            colors.push_back(std::uint8_t(cfa.color(row, x)));
-    return colors;
-}
+/// The sensor's columns as the thumbnail's cells see them, for each row of the filter pattern.
+struct MosaicColumns {
+    struct Color {
+        Shares columns;
+        double length = 0; ///< of them all
+    };
+    std::vector<std::array<Color, 3>> cells; ///< [row][cell]
 
-/// One row of the thumbnail of a mosaic. `rows`: the sensor rows that it covers; `colors`: pattern_colors.
+    explicit MosaicColumns(const RawPixels& pixels)
+    {
+        for (int row = 0; row < pixels.cfa.rows; ++row)
+            for (const Shares& cell : shares_by_cell(pixels.width)) {
+                cells.emplace_back();
+                for (const auto& column : cell) {
+                    Color& color = cells.back()[std::size_t(pixels.cfa.color(row, column.input))];
+                    color.columns.push_back(column);
+                    color.length += column.length;
+                }
+            }
+    }
+};
+
+/// One row of the thumbnail of a mosaic. `rows`: the sensor rows that it covers.
 void average_mosaic_row(const RawPixels& pixels, const RowScaler& scaler, const Shares& rows,
-                        const std::vector<Shares>& columns, const std::vector<std::uint8_t>& colors, float* target)
+                        const MosaicColumns& columns, float* target)
 {
     const CfaPattern& cfa = pixels.cfa;
     const std::size_t width = std::size_t(pixels.width);
     std::vector<float> line(width);
-    // Sums down the columns, apart for each row of the pattern, so that a place in it has one colour. Floats: a cell
+    // Sums down the columns, apart for each row of the pattern, so that a place in it has one color. Floats: a cell
     // has some dozen rows, and its columns are added up in double.
     std::vector<float> sums(width * std::size_t(cfa.rows));
     std::vector<double> lengths(std::size_t(cfa.rows));
@@ -54,27 +66,27 @@ void average_mosaic_row(const RawPixels& pixels, const RowScaler& scaler, const 
             sum[x] += length * line[x];
         lengths[std::size_t(row.input % cfa.rows)] += row.length;
     }
-    for (std::size_t cell = 0; cell < columns.size(); ++cell) {
-        std::array<double, 3> total{}, area{};
-        for (int row = 0; row < cfa.rows; ++row)
-            for (const auto& column : columns[cell]) {
-                const std::size_t place = width * std::size_t(row) + std::size_t(column.input), color = colors[place];
-                total[color] += column.length * double(sums[place]);
-                area[color] += column.length * lengths[std::size_t(row)];
+    for (std::size_t cell = 0; cell < kThumbnailSize; ++cell)
+        for (std::size_t c = 0; c < 3; ++c) {
+            double total = 0, area = 0;
+            for (std::size_t row = 0; row < lengths.size(); ++row) {
+                const MosaicColumns::Color& color = columns.cells[row * kThumbnailSize + cell][c];
+                for (const auto& column : color.columns)
+                    total += column.length * double(sums[width * row + std::size_t(column.input)]);
+                area += lengths[row] * color.length;
             }
-        for (std::size_t c = 0; c < 3; ++c)
-            target[cell * 3 + c] = float(total[c] / area[c]);
-    }
+            target[cell * 3 + c] = float(total / area);
+        }
 }
 
 Thumbnail average_mosaic(const RawPixels& pixels)
 {
     const RowScaler scaler(pixels);
-    const std::vector<Shares> rows = shares_by_cell(pixels.height), columns = shares_by_cell(pixels.width);
-    const std::vector<std::uint8_t> colors = pattern_colors(pixels.cfa, pixels.width);
+    const std::vector<Shares> rows = shares_by_cell(pixels.height);
+    const MosaicColumns columns(pixels);
     Thumbnail thumbnail;
     parallel_tasks(kThumbnailSize, 0, [&](std::int64_t y) {
-        average_mosaic_row(pixels, scaler, rows[std::size_t(y)], columns, colors,
+        average_mosaic_row(pixels, scaler, rows[std::size_t(y)], columns,
                            thumbnail.rgb.data() + std::size_t(y) * kThumbnailSize * 3);
     });
     return thumbnail;

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <type_traits>
+
+#include "scale_shorts.h"
 
 namespace srisp {
 
@@ -65,7 +68,7 @@ RowScaler::RowScaler(const RawPixels& pixels) : m_pixels(pixels)
                 const int place = (row * black.columns + x % black.columns) * pixels.channels + c;
                 const float column_part = black.by_column.empty() ? 0 : black.by_column[std::size_t(x)];
                 m_black.push_back(black.pattern[std::size_t(place)] + column_part);
-                m_range.push_back(pixels.white[std::size_t(c)] - m_black.back());
+                m_factor.push_back(1 / (pixels.white[std::size_t(c)] - m_black.back()));
             }
 }
 
@@ -75,17 +78,23 @@ template<class Sample> void RowScaler::scale_row(const Sample* source, int row, 
     const std::size_t start =
         std::size_t(row % m_pixels.black.rows) * std::size_t(m_pixels.width) * std::size_t(channels);
     const float* black = m_black.data() + start;
-    const float* range = m_range.data() + start;
-    const float row_part = m_pixels.black.by_row.empty() ? 0 : m_pixels.black.by_row[std::size_t(row)];
-    const auto scaled = [&](Sample value, int i) {
-        const float v = (float(value) - black[i] - row_part) / (range[i] - row_part);
-        return std::min(std::max(v, 0.0f), 1.0f);
-    };
-    if (channels == 1 && m_pixels.pixel_stride == 1) { // apart, so that compilers vectorise it
-        for (int x = 0; x < m_pixels.width; ++x)
-            target[x] = scaled(source[x], x);
-        return;
+    const float* factor = m_factor.data() + start;
+    std::vector<float> black_here, factor_here; // where each row has a black level of its own
+    if (!m_pixels.black.by_row.empty()) {
+        const float row_part = m_pixels.black.by_row[std::size_t(row)];
+        for (int i = 0; i < m_pixels.width * channels; ++i) {
+            black_here.push_back(black[i] + row_part);
+            factor_here.push_back(1 / (1 / factor[i] - row_part));
+        }
+        black = black_here.data();
+        factor = factor_here.data();
     }
+    const auto scaled = [&](Sample value, int i) {
+        return std::min(std::max((float(value) - black[i]) * factor[i], 0.0f), 1.0f);
+    };
+    if constexpr (std::is_same_v<Sample, std::uint16_t>)
+        if (channels == 1 && m_pixels.pixel_stride == 1)
+            return scale_shorts(source, black, factor, std::size_t(m_pixels.width), target);
     for (int x = 0; x < m_pixels.width; ++x)
         for (int c = 0; c < channels; ++c)
             target[x * channels + c] = scaled(source[x * m_pixels.pixel_stride + c], x * channels + c);

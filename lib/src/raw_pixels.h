@@ -67,7 +67,7 @@ private:
     template<class Sample> void scale_row(const Sample* source, int row, float* target) const;
 
     const RawPixels& m_pixels;
-    std::vector<float> m_black, m_range; ///< [row of the pattern][column][channel]
+    std::vector<float> m_black, m_factor; ///< factor = 1 / (white − black); [row of the pattern][column][channel]
 };
 
 /// Why these filters can't be used (a colour that is not R, G or B, or none of one; X-Trans too small for its pattern),

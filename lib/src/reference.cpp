@@ -23,23 +23,18 @@ namespace {
 // Below this a frame holds noise, which says nothing of the light.
 constexpr float kDarkest = 0.005f;
 
-/// 98th percentile of all values of the thumbnail, the three channels together.
-float brightness(const Thumbnail& thumbnail)
-{
-    std::vector<float> values = thumbnail.rgb;
-    const auto place = values.begin() + std::ptrdiff_t(double(values.size() - 1) * 0.98);
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
-}
-
+/// By the 98th percentile of all values, the three channels together.
 std::string check_brightness(const Thumbnail& thumbnail)
 {
-    const float value = brightness(thumbnail);
-    if (value >= kDarkest)
+    const std::vector<float>& all = thumbnail.rgb;
+    const auto place = std::ptrdiff_t(double(all.size() - 1) * 0.98);
+    if (std::count_if(all.begin(), all.end(), [](float v) { return v < kDarkest; }) <= place)
         return {};
+    std::vector<float> values = all;
+    std::nth_element(values.begin(), values.begin() + place, values.end());
     char text[128];
     std::snprintf(text, sizeof text, "is a black frame: 98 %% of its values are at or below %.5f, the limit is %.3f",
-                  double(value), double(kDarkest));
+                  double(values[std::size_t(place)]), double(kDarkest));
     return text;
 }
 

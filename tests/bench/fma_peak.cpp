@@ -83,13 +83,21 @@ bool has_avx512()
     return hwy::SupportedTargets() & kAvx512;
 }
 
+namespace {
+void allow(std::int64_t targets)
+{
+    hwy::SetSupportedTargetsForTest(targets);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+} // namespace
+
 WithoutAvx512::WithoutAvx512()
 {
-    hwy::DisableTargets(kAvx512);
+    allow(hwy::SupportedTargets() & ~kAvx512);
 }
 
 WithoutAvx512::~WithoutAvx512()
 {
-    hwy::DisableTargets(0);
+    allow(0);
 }
 #endif
