@@ -46,9 +46,11 @@ std::array<float, kQuantileFeatures> quantile_features(Planes image, int height,
 
     std::array<float, kQuantileFeatures> features;
     auto next = features.begin();
-    for (std::vector<float>& values : channels)
+    for (std::vector<float>& values : channels) {
+        Quantiles quantile(values);
         for (const double q : kQuantiles)
-            *next++ = static_cast<float>(std::log(std::max(quantile(values, q), kDarkest)) * 0.5 + 1);
+            *next++ = static_cast<float>(std::log(std::max(quantile(q), kDarkest)) * 0.5 + 1);
+    }
     for (int c = 0; c < 3; ++c) {
         const auto clipped =
             std::count_if(channels[c].begin(), channels[c].end(), [](float v) { return v > kClipped; });

@@ -6,31 +6,51 @@
 
 namespace srisp {
 
-double quantile(std::vector<float>& values, double q)
+namespace {
+
+constexpr double kFloor = 1e-3;
+
+/// Σ ln max(v, kFloor): logarithms of products of numbers in [1e-3, 1], as many as a double holds with room to spare.
+double sum_of_logs(const std::vector<float>& values)
 {
-    const double position = q * (values.size() - 1);
-    const auto below = values.begin() + static_cast<std::ptrdiff_t>(position);
-    std::nth_element(values.begin(), below, values.end());
+    constexpr std::size_t factors = 64;
+    double sum = 0;
+    for (std::size_t i = 0; i < values.size(); i += factors) {
+        double product = 1;
+        for (std::size_t k = i; k < std::min(i + factors, values.size()); ++k)
+            product *= std::max<double>(values[k], kFloor);
+        sum += std::log(product);
+    }
+    return sum;
+}
+
+} // namespace
+
+double Quantiles::operator()(double q)
+{
+    const double position = q * (m_values.size() - 1);
+    const auto below = m_values.begin() + static_cast<std::ptrdiff_t>(position);
+    std::nth_element(m_begin, below, m_values.end());
+    m_begin = below;
     const double fraction = position - std::floor(position);
-    if (fraction == 0 || below + 1 == values.end())
+    if (fraction == 0 || below + 1 == m_values.end())
         return *below;
-    return *below + fraction * (static_cast<double>(*std::min_element(below + 1, values.end())) - *below);
+    return *below + fraction * (static_cast<double>(*std::min_element(below + 1, m_values.end())) - *below);
 }
 
 std::array<float, 12> statistics(Planes image, std::size_t count)
 {
-    constexpr double floor = 1e-3;
     std::array<float, 12> result;
     for (int c = 0; c < 3; ++c) {
         std::vector<float> values(image.plane(c), image.plane(c) + count);
-        double sum = 0, log_sum = 0;
-        for (const float v : values) {
+        double sum = 0;
+        for (const float v : values)
             sum += v;
-            log_sum += std::log(std::max<double>(v, floor));
-        }
-        const double numbers[] = { std::log(std::max(sum / count, floor)), log_sum / count,
-                                   std::log(std::max(quantile(values, 0.5), floor)),
-                                   std::log(std::max(quantile(values, 0.98), floor)) };
+        const double log_sum = sum_of_logs(values);
+        Quantiles quantile(values);
+        const double median = quantile(0.5), bright = quantile(0.98);
+        const double numbers[] = { std::log(std::max(sum / count, kFloor)), log_sum / count,
+                                   std::log(std::max(median, kFloor)), std::log(std::max(bright, kFloor)) };
         for (int i = 0; i < 4; ++i)
             result[i * 3 + c] = static_cast<float>(numbers[i] * 0.5 + 1);
     }

@@ -100,6 +100,20 @@ AnchorFit fit_line(const torch::Tensor& statistics, const torch::Tensor& log_mea
     return fit;
 }
 
+Status take_anchor(Unprocessor& model, Unprocessor& other)
+{
+    const std::vector<torch::Tensor> to = model.anchor_parameters(), from = other.anchor_parameters();
+    if (from.empty() || to.empty())
+        return Error{ from.empty() ? "has no anchor" : "has an anchor, and the recipe's model has none" };
+    const auto same_shape = [](const torch::Tensor& a, const torch::Tensor& b) { return a.sizes() == b.sizes(); };
+    if (!std::equal(to.begin(), to.end(), from.begin(), from.end(), same_shape))
+        return Error{ "has an anchor of another kind than the recipe's model" };
+    const torch::NoGradGuard no_gradient;
+    for (std::size_t i = 0; i < to.size(); ++i)
+        torch::Tensor(to[i]).copy_(from[i]);
+    return {};
+}
+
 std::optional<AnchorFit> start_anchor(Unprocessor& model, Samples& samples, const AnchorFitSettings& settings,
                                       std::uint64_t seed, const std::function<void(double)>& progress)
 {

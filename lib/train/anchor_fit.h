@@ -3,6 +3,9 @@
 
 #include <functional>
 #include <optional>
+#include <string>
+
+#include <srisp/expected.h>
 
 #include "samples.h"
 #include "unprocessor.h"
@@ -12,6 +15,7 @@ namespace srisp::train {
 /// How an anchor is fitted, before the first step, to what its images' statistics say about the RAW's brightness: a
 /// line in closed form, then the network by Adam on what the line misses.
 struct AnchorFitSettings {
+    std::string from; ///< a model's name or path; empty: fit
     int pairs = 24000;
     double ridge = 1e-3;
     int steps = 3000;
@@ -21,6 +25,7 @@ struct AnchorFitSettings {
 
     template<class Visitor> void describe(Visitor& v)
     {
+        v.path("from", from, "model whose anchor is taken as it is, instead of a fit: a name or a path");
         v.integer("pairs", pairs, 32, 10'000'000, "training pairs that the anchor is fitted to before the first step");
         v.number("ridge", ridge, 0, 1e3, "penalty on the squared weights of the line, per pair");
         v.integer("steps", steps, 1, 10'000'000, "optimiser steps of the anchor's network");
@@ -42,6 +47,9 @@ struct AnchorFit {
 /// The line, by ridge regression in closed form: `statistics` [n, 24], source's then reference's; `log_means` [n, 3].
 /// n ≥ 2. Only `weight` and `bias` of the result are set.
 AnchorFit fit_line(const torch::Tensor& statistics, const torch::Tensor& log_means, double ridge);
+
+/// Gives `model` the anchor of another, of whatever kernel size. An error where either has none or theirs differ.
+Status take_anchor(Unprocessor& model, Unprocessor& other);
 
 /// Fits the model's anchor to pseudo pairs of the first steps; nothing where the model has none. `progress` gets the
 /// part that is done, 0 … 1. `seed`: of the network's batches.

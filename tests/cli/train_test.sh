@@ -112,6 +112,13 @@ check "a model of another kernel size as --init" says 1 \
     "--init pointwise is another kind of model than the recipe's: 'model.kernel_size' is \"1\" there, \"3\" here" \
     "$train" tiny.json --init pointwise -o init
 check "no model as --init" says 1 "unknown model 'defalt'; did you mean 'default'?" "$train" tiny.json --init defalt -o init
+with_an_anchor() {
+    "$train" tiny.json -o anchored --set anchor_fit.from=pointwise --steps 1 2>err && ! grep -q "anchor fitted" err &&
+        [ -s anchored/best.safetensors ]
+}
+check "the anchor of another model, without a fit" with_an_anchor
+check "no model to take the anchor from" says 1 "unknown model 'defalt'; did you mean 'default'?" \
+    "$train" tiny.json --set anchor_fit.from=defalt -o anchored_2
 check "--device cuda without a GPU, or with one" sh -c '"$1" tiny.json -o gpu --device cuda --steps 2 2>err ||
     grep -q "LibTorch finds no GPU here" err' sh "$train"
 

@@ -130,6 +130,12 @@ std::optional<AnchorFit> start_model(Session& session, bool quiet, const std::fu
     const Recipe& recipe = session.settings();
     if (!recipe.init.empty())
         return {};
+    if (const std::string& name = recipe.anchor_fit.from; !name.empty()) {
+        const LoadedModel other = require(load_model(require(find_model_file(name))));
+        if (const Status status = take_anchor(*session.model, *other.model); !status)
+            fail("anchor_fit.from: model '" + name + "' " + status.error().message);
+        return {};
+    }
     ProgressMeter meter("srisptrain: fitting the anchor", "%", 100, !quiet);
     return start_anchor(*session.model, *session.samples, recipe.anchor_fit, static_cast<std::uint64_t>(recipe.seed),
                         [&](double part) {

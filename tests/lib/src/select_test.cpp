@@ -83,8 +83,12 @@ TEST_CASE("black, white and single-colour thumbnails still give usable parameter
 TEST_CASE("quantiles interpolate linearly, and the median of an even count is the mean of the middle two")
 {
     std::vector<float> four{ 4, 1, 3, 2 }, five{ 5, 1, 3, 2, 4 }, one{ 7 };
-    CHECK(quantile(four, 0.5) == 2.5);
-    CHECK(quantile(five, 0.5) == 3);
-    CHECK(quantile(five, 0.98) == doctest::Approx(4.92));
-    CHECK(quantile(one, 0.98) == 7);
+    CHECK(Quantiles(four)(0.5) == 2.5);
+    Quantiles of_five(five);
+    CHECK(of_five(0) == 1);
+    CHECK(of_five(0.5) == 3);
+    CHECK(of_five(0.5) == 3);
+    CHECK(of_five(0.98) == doctest::Approx(4.92));
+    CHECK(of_five(1) == 5);
+    CHECK(Quantiles(one)(0.98) == 7);
 }

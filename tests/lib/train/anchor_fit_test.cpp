@@ -125,3 +125,32 @@ TEST_CASE("a model without an anchor is left alone")
     SimplePairs pairs;
     CHECK(!start_anchor(network, pairs, {}, 1));
 }
+
+TEST_CASE("a model takes another's anchor, of whatever kernel size; not one of another kind")
+{
+    ModelSettings settings, pointwise, line;
+    pointwise.kernel_size = "1";
+    line.anchor_network = false;
+    Network model(pointwise, 1), other(settings, 2), other_kind(line, 3);
+    const torch::Tensor photo = smooth_images(1, 16, 16, 4, 0.2, 0.9), raw = smooth_images(1, 16, 16, 5, 0.02, 0.3);
+    const auto base = [&](Network& network) {
+        Choice choice;
+        network.reverse(photo, raw, &choice);
+        return choice.base;
+    };
+    {
+        const torch::NoGradGuard no_gradient;
+        for (torch::Tensor parameter : other.anchor_parameters())
+            parameter.add_(0.01);
+    }
+    REQUIRE(take_anchor(model, other));
+    const auto taken = model.anchor_parameters(), given = other.anchor_parameters();
+    REQUIRE(taken.size() == given.size());
+    for (std::size_t i = 0; i < taken.size(); ++i)
+        CHECK(torch::equal(taken[i], given[i]));
+    CHECK(base(model).isfinite().all().item<bool>());
+
+    const srisp::Status status = take_anchor(model, other_kind);
+    REQUIRE_FALSE(status);
+    CHECK(status.error().message == "has an anchor of another kind than the recipe's model");
+}

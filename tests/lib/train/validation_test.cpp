@@ -35,7 +35,7 @@ TEST_CASE("A validation's score takes one dB for each tenth that the highlights 
 TEST_CASE("A validation without highlights has a score")
 {
     Scores scores;
-    scores.groups = { group_of("real", 0.5f, 0.9f) };
+    scores.groups = { group_of("real", 0.4f, 0.9f) };
     scores.groups[0].model.highlights = {};
     const Validation result = validation_of(scores, "real");
     CHECK(result.score == doctest::Approx(result.psnr - result.angle));
