@@ -39,8 +39,8 @@ Options of these commands follow the command, as in oiiotool:
                  or --srisp-save-params wrote, edited or not
   input=KIND     what the photo's values are: srgb, linear, or auto (float is
                  linear, integers are sRGB)
-  precision=KIND float32, or fast: a good one and a half times as fast, with an
-                 error far below one code value of 10 bits
+  precision=KIND float32, or fast: one and a half to nearly two times as fast,
+                 with an error well below one code value of 10 bits
   hold=1         keep the first frame's parameters over a sequence, so that
                  nothing flickers
   seed=N         for the choice among several references
