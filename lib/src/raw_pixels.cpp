@@ -84,7 +84,7 @@ template<class Sample> void RowScaler::scale_row(const Sample* source, int row, 
         const float row_part = m_pixels.black.by_row[std::size_t(row)];
         for (int i = 0; i < m_pixels.width * channels; ++i) {
             black_here.push_back(black[i] + row_part);
-            factor_here.push_back(1 / (1 / factor[i] - row_part));
+            factor_here.push_back(1 / (m_pixels.white[std::size_t(i % channels)] - black_here.back()));
         }
         black = black_here.data();
         factor = factor_here.data();

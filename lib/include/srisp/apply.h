@@ -23,8 +23,8 @@ enum class Direction {
 /// How the tone map of 3×3 kernels is computed; other blocks and kernels are the same in both.
 enum class Precision {
     float32, ///< plain sums in float32
-    fast     ///< by bf16 where the processor has AVX-512 BF16: on photos within 1e-3 of the above, 1e-5 or so on average;
-             ///< elsewhere with fewer multiply-adds in float32: within 1e-4, 1e-6 on average
+    fast ///< by bf16 where the processor has AVX-512 BF16: on photos within 1e-3 of the above, some 1e-5 on average;
+         ///< elsewhere with fewer multiply-adds in float32: within 1e-4, 1e-6 on average
 };
 
 /// Reads "float32" or "fast"; an error names both.
