@@ -27,7 +27,9 @@ struct Pipeline {
 namespace {
 
 constexpr int kMinTileRows = 16;
-constexpr int kBandRows = 512; // copied at a time where the target is the source; a tile at least
+// Rows that are copied at a time where the target is the source: enough for tall tiles, and of wide images some 64 MB.
+constexpr int kMinBandRows = 128, kMaxBandRows = 512;
+constexpr std::ptrdiff_t kBandBytes = std::ptrdiff_t(64) << 20;
 
 /// What is to be computed, and from what.
 struct Job {
@@ -171,10 +173,13 @@ void run_tiles(const Pipeline& p, const Job& job, int threads, Progress& progres
 /// above was overwritten.
 void run_in_place(const Pipeline& p, const Job& job, int threads, Progress& progress)
 {
-    const int halo = p.tone_map->halo(), band_rows = std::max(kBandRows, p.tone_map->good_tile_height());
+    const int halo = p.tone_map->halo();
     const int first_row = std::max(job.roi.y0 - halo, 0), last_row = std::min(job.roi.y1 + halo, job.full_height);
     const std::ptrdiff_t row_floats = std::ptrdiff_t(3) * job.source.width;
+    const std::ptrdiff_t rows_that_fit = kBandBytes / (row_floats * std::ptrdiff_t(sizeof(float)));
+    const int band_rows = static_cast<int>(std::clamp<std::ptrdiff_t>(rows_that_fit, kMinBandRows, kMaxBandRows));
     std::vector<float> copy;
+    copy.reserve((std::min(band_rows, last_row - first_row) + 2 * halo) * row_floats);
     int copied_from = first_row, copied_to = first_row;
     for (int y0 = job.roi.y0; y0 < job.roi.y1 && !progress.cancelled(); y0 += band_rows) {
         const int y1 = std::min(y0 + band_rows, job.roi.y1);
