@@ -15,11 +15,8 @@ bool has_bf16();
 /// Weights for inputs in pairs: `inputs` of the result is half of what it was. Even numbers of inputs only.
 PackedConvolution pack_bf16(const ConvolutionWeights& weights);
 
-/// What a kernel reads and writes: planes of floats or of pairs. Names say in, then out.
-using ConvolveRow = void (*)(const PackedConvolution& layer, const ConvolutionRow& row);
-
-/// As convolve_row. Layers that write pairs have an even number of outputs. Each pixel gets the same bits wherever it
-/// lies in the row. Only where has_bf16().
+/// As convolve_row; the names say what is read, then what is written. Layers that write pairs have an even number of
+/// outputs. Each pixel gets the same bits wherever it lies in the row. Only where has_bf16().
 void convolve_floats_to_pairs(const PackedConvolution& layer, const ConvolutionRow& row);
 void convolve_pairs_to_pairs(const PackedConvolution& layer, const ConvolutionRow& row);
 void convolve_pairs_to_floats(const PackedConvolution& layer, const ConvolutionRow& row);
