@@ -120,7 +120,7 @@ TEST_CASE("the tone map equals a plain one in double, borders included")
             const auto applier = fixture.applier(Direction::reverse, precision);
             const Difference difference = compare(applied(*applier, source).values, expected);
             INFO((precision == Precision::fast ? "fast: " : "float32: "), difference.text);
-            CHECK(difference.largest <= (precision == Precision::fast && has_bf16() ? 2e-3 : 1e-5));
+            CHECK(difference.largest <= (precision == Precision::fast && has_bf16() ? 5e-4 : 1e-5));
         }
     });
 }
@@ -135,8 +135,8 @@ TEST_CASE("fast stays near float32, and is something else")
             const Image fast = applied(*fixture.applier(direction, Precision::fast), source);
             const Difference difference = compare(fast.values, plain.values);
             INFO(difference.text);
-            CHECK(difference.percentile_99_9 <= (has_bf16() ? 1e-3 : 1e-5));
-            CHECK(difference.largest <= (has_bf16() ? 5e-3 : 1e-4));
+            CHECK(difference.percentile_99_9 <= (has_bf16() ? 5e-4 : 1e-5));
+            CHECK(difference.largest <= (has_bf16() ? 1e-3 : 1e-4));
             CHECK(difference.largest > 0);
         }
         CHECK(fixture.applier(Direction::reverse, Precision::fast)->halo() == (has_bf16() ? 4 : 17));
