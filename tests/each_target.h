@@ -5,16 +5,9 @@
 #include <string>
 
 #include <doctest/doctest.h>
-#include <hwy/highway.h>
 
 #include "bf16_convolution.h"
-
-/// Lets dispatch choose among these instruction sets only; 0: all that the machine has.
-inline void force_targets(std::int64_t targets)
-{
-    hwy::SetSupportedTargetsForTest(targets);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
+#include "force_targets.h"
 
 /// Calls `body` once per instruction set that this machine has and the build contains, with dispatch forced to it.
 template<class Body> void on_each_instruction_set(Body body)

@@ -35,8 +35,9 @@ struct MosaicColumns {
 
     explicit MosaicColumns(const RawPixels& pixels)
     {
+        const std::vector<Shares> shares = shares_by_cell(pixels.width);
         for (int row = 0; row < pixels.cfa.rows; ++row)
-            for (const Shares& cell : shares_by_cell(pixels.width)) {
+            for (const Shares& cell : shares) {
                 cells.emplace_back();
                 for (const auto& column : cell) {
                     Color& color = cells.back()[std::size_t(pixels.cfa.color(row, column.input))];
@@ -54,7 +55,7 @@ void average_mosaic_row(const RawPixels& pixels, const RowScaler& scaler, const 
     const CfaPattern& cfa = pixels.cfa;
     const std::size_t width = std::size_t(pixels.width);
     std::vector<float> line(width);
-    // Sums down the columns, apart for each row of the pattern, so that a place in it has one color. Floats: a cell
+    // Sums down the columns, apart for each row of the pattern, so that a place in it has one colour. Floats: a cell
     // has some dozen rows, and its columns are added up in double.
     std::vector<float> sums(width * std::size_t(cfa.rows));
     std::vector<double> lengths(std::size_t(cfa.rows));

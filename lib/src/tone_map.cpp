@@ -36,10 +36,15 @@ std::unique_ptr<const ToneMap> mix_tone_map(const ToneDictionary& dictionary,
     std::array<ConvolutionWeights, kToneLayers> layers;
     for (int l = 0; l < kToneLayers; ++l)
         layers[l] = mix_layer(dictionary[l], weights[l]);
-    const bool plain = method == ToneMethod::plain || layers[0].taps != 9;
-    if (!plain && method == ToneMethod::winograd)
+    switch (layers[0].taps == 9 ? method : ToneMethod::plain) {
+    case ToneMethod::winograd:
         return std::make_unique<WinogradToneMap>(layers);
-    return std::make_unique<RollingToneMap>(plain ? float_tone_map(layers) : bf16_tone_map(layers));
+    case ToneMethod::bf16:
+        return std::make_unique<RollingToneMap>(bf16_tone_map(layers));
+    case ToneMethod::plain:
+        break;
+    }
+    return std::make_unique<RollingToneMap>(float_tone_map(layers));
 }
 
 } // namespace srisp

@@ -39,6 +39,8 @@ int multiply_add(long rounds, float* sink)
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "../force_targets.h"
+
 HWY_EXPORT(multiply_add);
 
 double measure_fma_peak(int threads)
@@ -83,21 +85,13 @@ bool has_avx512()
     return hwy::SupportedTargets() & kAvx512;
 }
 
-namespace {
-void allow(std::int64_t targets)
-{
-    hwy::SetSupportedTargetsForTest(targets);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-} // namespace
-
 WithoutAvx512::WithoutAvx512()
 {
-    allow(hwy::SupportedTargets() & ~kAvx512);
+    force_targets(hwy::SupportedTargets() & ~kAvx512);
 }
 
 WithoutAvx512::~WithoutAvx512()
 {
-    allow(0);
+    force_targets(0);
 }
 #endif
