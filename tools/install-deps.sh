@@ -15,7 +15,7 @@ packages="
 "
 test_packages="clang-format-14 dcraw libgl1-mesa-dri libimage-exiftool-perl libraw-bin make man-db mount opencolorio-tools
     python3 python3-numpy python3-openimageio python3-pyopencolorio xauth xvfb"
-trainer_packages="libgloo-dev libtorch-dev"
+trainer_packages="libgloo-dev libopenblas0-openmp libtorch-dev"
 case "$#${1:-}" in
     0) packages="$packages $trainer_packages $test_packages" ;;
     1build) ;;

@@ -14,7 +14,10 @@ namespace {
 constexpr int kSide = 64; // to which a thumbnail is reduced, about
 constexpr double kDarkest = 1e-4;
 constexpr float kClipped = 0.95f;
+constexpr double kColorFloor = 2e-3; // added, so that noise in the dark has little colour
+constexpr double kBright = 0.75;     // quantile of the means from which on pixels are bright
 constexpr double kQuantiles[] = { 0.02, 0.1, 0.25, 0.4, 0.5, 0.6, 0.75, 0.9, 0.97, 0.995 };
+constexpr double kColorQuantiles[] = { 0.02, 0.1, 0.25, 0.5, 0.75, 0.9, 0.98 };
 
 /// Means over blocks of rows × columns pixels, whole blocks only.
 std::vector<float> block_means(const float* plane, int height, int width)
@@ -33,6 +36,17 @@ std::vector<float> block_means(const float* plane, int height, int width)
     return means;
 }
 
+/// ln of the ratio to green, of the pixels whose mean is at least `darkest`.
+std::vector<float> log_ratios(const std::vector<float>& channel, const std::vector<float>& green,
+                              const std::vector<float>& means, double darkest)
+{
+    std::vector<float> result;
+    for (std::size_t i = 0; i < channel.size(); ++i)
+        if (means[i] >= darkest)
+            result.push_back(static_cast<float>(std::log((channel[i] + kColorFloor) / (green[i] + kColorFloor))));
+    return result;
+}
+
 } // namespace
 
 std::array<float, kQuantileFeatures> quantile_features(Planes image, int height, int width)
@@ -46,7 +60,8 @@ std::array<float, kQuantileFeatures> quantile_features(Planes image, int height,
 
     std::array<float, kQuantileFeatures> features;
     auto next = features.begin();
-    for (std::vector<float>& values : channels) {
+    for (const std::vector<float>& channel : channels) {
+        std::vector<float> values = channel;
         Quantiles quantile(values);
         for (const double q : kQuantiles)
             *next++ = static_cast<float>(std::log(std::max(quantile(q), kDarkest)) * 0.5 + 1);
@@ -56,6 +71,15 @@ std::array<float, kQuantileFeatures> quantile_features(Planes image, int height,
             std::count_if(channels[c].begin(), channels[c].end(), [](float v) { return v > kClipped; });
         *next++ = static_cast<float>(clipped) / static_cast<float>(channels[c].size());
     }
+    std::vector<float> means = channels[3];
+    const double bright = Quantiles(means)(kBright);
+    for (const double darkest : { 0.0, bright })
+        for (const int c : { 0, 2 }) {
+            std::vector<float> colors = log_ratios(channels[c], channels[1], channels[3], darkest);
+            Quantiles quantile(colors);
+            for (const double q : kColorQuantiles)
+                *next++ = static_cast<float>(quantile(q));
+        }
     return features;
 }
 

@@ -18,11 +18,12 @@ constexpr double kMakingPairs = 0.9; // part of the work
 
 /// What the anchor is fitted to, a row for each pair.
 struct Rows {
-    torch::Tensor inputs, log_means; ///< [n, 110] (24 without a network), [n, 3]
+    torch::Tensor inputs;             ///< [n, 166]; [n, 24] without a network
+    torch::Tensor log_means, squares; ///< of the RAW, [n, 3]
 
     Rows slice(std::int64_t begin, std::int64_t end) const
     {
-        return { inputs.slice(0, begin, end), log_means.slice(0, begin, end) };
+        return { inputs.slice(0, begin, end), log_means.slice(0, begin, end), squares.slice(0, begin, end) };
     }
 };
 
@@ -38,7 +39,7 @@ torch::Tensor line_of(const AnchorFit& fit, const torch::Tensor& inputs)
 
 Rows collect(Samples& samples, int pairs, bool with_quantiles, const std::function<void(double)>& progress)
 {
-    std::vector<torch::Tensor> inputs, means;
+    std::vector<torch::Tensor> inputs, means, squares;
     for (int done = 0, step = 0; done < pairs; ++step) {
         const int count = std::min(kBatch, pairs - done);
         const Batch batch = samples.batch(step, 0, count, 0, 0);
@@ -46,10 +47,11 @@ Rows collect(Samples& samples, int pairs, bool with_quantiles, const std::functi
         const torch::Tensor statistics = torch::cat({ image_statistics(source), image_statistics(batch.reference) }, 1);
         inputs.push_back((with_quantiles ? anchor_inputs(statistics, source, batch.reference) : statistics).cpu());
         means.push_back(log_means(batch.truth).cpu());
+        squares.push_back(mean_squares(batch.truth).cpu());
         done += count;
         progress(static_cast<double>(done) / pairs);
     }
-    return { torch::cat(inputs), torch::cat(means) };
+    return { torch::cat(inputs), torch::cat(means), torch::cat(squares) };
 }
 
 /// Adam on what the line misses.
@@ -62,6 +64,7 @@ void fit_network(AnchorNetwork& network, const Rows& rows, const AnchorFit& line
     const torch::Tensor deviation = rows.inputs.std(0).clamp_min(kSmallest).to(device);
     const torch::Tensor inputs = (rows.inputs.to(device) - mean) / deviation;
     const torch::Tensor missed = (rows.log_means - line_of(line, rows.inputs)).to(device);
+    const torch::Tensor squares = rows.squares.to(device);
 
     OptimizerSettings optimizer;
     optimizer.rate = settings.rate;
@@ -70,12 +73,16 @@ void fit_network(AnchorNetwork& network, const Rows& rows, const AnchorFit& line
     Adam adam(optimizer, parameters, none, none, parameters.mask_of(weights_of(network)));
 
     at::Generator generator = at::detail::createCPUGenerator(seed);
+    const double kept = 1 - settings.dropout;
+    const auto dropped = [&](const torch::Tensor& values) {
+        return values * torch::empty(values.sizes()).bernoulli_(kept, generator).div_(kept).to(device);
+    };
     for (int step = 0; step < settings.steps; ++step) {
         const torch::Tensor chosen =
             torch::randint(inputs.size(0), { settings.batch }, generator, torch::kLong).to(device);
         parameters.gradients().zero_();
-        const torch::Tensor error = network.forward(inputs.index_select(0, chosen)) - missed.index_select(0, chosen);
-        errors_of_means(error).abs().mean().backward();
+        const torch::Tensor correction = network.forward(inputs.index_select(0, chosen), dropped);
+        cost_of_means(correction - missed.index_select(0, chosen), squares.index_select(0, chosen)).mean().backward();
         adam.update(step, rate_factor(optimizer, step, settings.steps), adam.gradient_norm());
         progress(static_cast<double>(step + 1) / settings.steps);
     }

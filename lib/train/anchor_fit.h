@@ -21,7 +21,8 @@ struct AnchorFitSettings {
     int steps = 3000;
     int batch = 256;
     double rate = 2e-3;
-    double weight_decay = 1e-2;
+    double weight_decay = 0.3;
+    double dropout = 0.1;
 
     template<class Visitor> void describe(Visitor& v)
     {
@@ -31,7 +32,8 @@ struct AnchorFitSettings {
         v.integer("steps", steps, 1, 10'000'000, "optimiser steps of the anchor's network");
         v.integer("batch", batch, 1, 1'000'000, "pairs in each of them");
         v.number("rate", rate, 0, 1, "highest learning rate of the network, one cycle");
-        v.number("weight_decay", weight_decay, 0, 1, "decoupled weight decay of the network");
+        v.number("weight_decay", weight_decay, 0, 10, "decoupled weight decay of the network");
+        v.number("dropout", dropout, 0, 0.9, "share of the network's hidden values that are left out at each step");
     }
 };
 

@@ -7,7 +7,7 @@ namespace srisp::train {
 
 namespace {
 
-constexpr std::int64_t kHidden = 64;
+constexpr std::int64_t kHidden = 256;
 constexpr double kFirstOutput = 0.1; // part of the usual scale: the line comes first
 
 } // namespace
@@ -25,14 +25,22 @@ AnchorNetwork::AnchorNetwork(InitialWeights& initial)
     };
     add(initial.he({ kHidden, kAnchorInputs }));
     add(initial.he({ kHidden, kHidden }));
+    add(initial.he({ kHidden, kHidden }));
     add(initial.affine({ 3, kHidden }) * kFirstOutput);
 }
 
-torch::Tensor AnchorNetwork::forward(const torch::Tensor& inputs) const
+torch::Tensor AnchorNetwork::forward(const torch::Tensor& inputs,
+                                     const std::function<torch::Tensor(const torch::Tensor&)>& after_hidden) const
 {
     torch::Tensor x = inputs;
-    for (const std::shared_ptr<Layer>& layer : m_layers)
-        x = layer == m_layers.back() ? layer->affine(x) : torch::relu(layer->affine(x));
+    for (const std::shared_ptr<Layer>& layer : m_layers) {
+        x = layer->affine(x);
+        if (layer == m_layers.back())
+            break;
+        x = torch::relu(x);
+        if (after_hidden)
+            x = after_hidden(x);
+    }
     return x;
 }
 

@@ -13,14 +13,25 @@ inline torch::Tensor log_means(const torch::Tensor& images)
     return images.mean({ 2, 3 }).clamp_min(kDarkestMean).log();
 }
 
-/// What counts of the errors of log means [N, 3]: the relative error of G (which is what images differ by: twice too
-/// bright is worse than half as bright), and the errors of ln R/G and ln B/G (errors of brightness are many times those
-/// of colour, and would hide them in R and B). [N, 3]
-inline torch::Tensor errors_of_means(const torch::Tensor& errors_of_logs)
+/// Mean squares of the channels of images [N, 3, H, W], [N, 3].
+inline torch::Tensor mean_squares(const torch::Tensor& images)
 {
-    const torch::Tensor green = errors_of_logs.slice(1, 1, 2);
-    return torch::cat(
-        { torch::expm1(green), errors_of_logs.slice(1, 0, 1) - green, errors_of_logs.slice(1, 2, 3) - green }, 1);
+    return images.square().mean({ 2, 3 });
+}
+
+/// What errors of log means [N, 3] cost, [N]: ln of the part of the truth's squares that they miss, plus ln of the
+/// squared errors of R/G and B/G (those of brightness are many times as large, and would hide them). Logs, since the
+/// mean of PSNR is one of logs: it pays to be right where the images tell the mean, not a little less wrong where they
+/// do not. The floors are what an error of 20 % and one of colour of 10 % would miss: below, other errors count.
+inline torch::Tensor cost_of_means(const torch::Tensor& errors_of_logs, const torch::Tensor& truth_squares)
+{
+    constexpr double kBrightnessFloor = 0.2 * 0.2, kColorFloor = 0.1 * 0.1;
+    const torch::Tensor missed =
+        (truth_squares * torch::expm1(errors_of_logs).square()).sum(1) / truth_squares.sum(1).clamp_min(1e-8);
+    const torch::Tensor green = errors_of_logs.select(1, 1);
+    const torch::Tensor color =
+        (errors_of_logs.select(1, 0) - green).square() + (errors_of_logs.select(1, 2) - green).square();
+    return (missed + kBrightnessFloor).log() + (color + kColorFloor).log();
 }
 
 } // namespace srisp::train

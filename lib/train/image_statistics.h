@@ -9,7 +9,7 @@ namespace srisp::train {
 /// library's). No gradient flows through them: the images are data.
 torch::Tensor image_statistics(const torch::Tensor& linear);
 
-/// What the anchor's network sees of linear images besides, as [N, 43] (srisp::quantile_features); likewise.
+/// What the anchor's network sees of linear images besides, as [N, 71] (srisp::quantile_features); likewise.
 torch::Tensor image_quantiles(const torch::Tensor& linear);
 
 /// A display-encoded image made linear for these: max(v, 1e-8)^2.2.

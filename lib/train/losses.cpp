@@ -60,8 +60,9 @@ std::vector<LossTerm> loss_terms(const LossSettings& settings, const Compared& i
     if (images.processed.defined())
         add("forward", settings.forward, [&] { return mean_per_image((images.source - images.processed).abs()); });
     add("linear", settings.linear, [&] { return mean_per_image(error()); });
-    add("means", settings.means,
-        [&] { return errors_of_means(log_means(images.predicted) - log_means(images.truth)).abs().sum(1); });
+    add("means", settings.means, [&] {
+        return cost_of_means(log_means(images.predicted) - log_means(images.truth), mean_squares(images.truth));
+    });
     add("angle", settings.angle, [&] {
         const torch::Tensor difference = directions(images.truth) - directions(images.predicted);
         return mean_per_image((difference.square().sum(1) + 1e-8).sqrt());

@@ -28,7 +28,7 @@ struct LossSettings {
         v.number("forward", forward, 0, 1e3, "weight of |x - f(y)|, photo x, forward pass f of the truth");
         v.number("linear", linear, 0, 1e3, "weight of |y - y'|");
         v.number("means", means, 0, 1e3,
-                 "weight of the errors of image means, summed: |m'/m - 1| of green, |ln m'/m| of R/G and of B/G");
+                 "weight of the errors of image means: the logarithms of what they miss in brightness and in colour");
         v.number("angle", angle, 0, 1e3, "weight of |y/|y| - y'/|y'||: about the angle between colours, in radians");
         v.number("highlights", highlights, 0, 1e3, "weight of |y - y'| where the truth exceeds 0.8");
         v.number("round_trip", round_trip, 0, 1e3, "weight of |x - f(y')|");

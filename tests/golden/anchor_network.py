@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""An independent implementation, in NumPy, of what model format srisp-2 adds to srisp-1: the quantile features and the
+"""An independent implementation, in NumPy, of what model format srisp-3 adds to srisp-1: the quantile features and the
 network that corrects the anchor. Writes anchor_network.json, which the tests compare the library with.
 
     python3 tests/golden/anchor_network.py GOLDEN > tests/golden/anchor_network.json
@@ -36,7 +36,11 @@ def quantile_features(image):
     channels = [small[:, 0], small[:, 1], small[:, 2], small.mean(1)]
     quantiles = [np.quantile(channel, levels) for channel in channels]
     logs = np.log(np.maximum(np.concatenate(quantiles), 1e-4)) * 0.5 + 1
-    return np.concatenate([logs, (small > 0.95).mean(0)])
+    colors = np.log((small[:, [0, 2]] + 0.002) / (small[:, 1:2] + 0.002))
+    bright = small.mean(1) >= np.quantile(small.mean(1), 0.75)
+    color_levels = [0.02, 0.1, 0.25, 0.5, 0.75, 0.9, 0.98]
+    color_quantiles = [np.quantile(some, color_levels, axis=0).T.ravel() for some in (colors, colors[bright])]
+    return np.concatenate([logs, (small > 0.95).mean(0), *color_quantiles])
 
 
 def made_up_image(height, width):
@@ -46,13 +50,13 @@ def made_up_image(height, width):
 
 
 def made_up_network(inputs):
-    """Three affine layers with made-up weights, ReLU between them."""
+    """Four affine layers with made-up weights, ReLU between them."""
     x = inputs
-    for layer, (outputs, scale) in enumerate([(64, 0.1), (64, 0.1), (3, 0.05)]):
-        weight = scale * np.sin(0.7 * np.arange(outputs * len(x)) + layer).astype(np.float32).astype(np.float64)
+    for layer, outputs in enumerate([256, 256, 256, 3]):
+        weight = 0.05 * np.sin(0.7 * np.arange(outputs * len(x)) + layer).astype(np.float32).astype(np.float64)
         bias = 0.05 * np.cos(np.arange(outputs) + layer)
         x = weight.reshape(outputs, len(x)) @ x + bias
-        if layer < 2:
+        if layer < 3:
             x = np.maximum(x, 0)
     return x
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What model format srisp-2 adds, against an independent implementation: tests/golden/anchor_network.py.
+// What model format srisp-3 adds, against an independent implementation: tests/golden/anchor_network.py.
 #include <cmath>
 #include <fstream>
 
@@ -76,6 +76,10 @@ TEST_CASE("quantile features of one pixel, and of darkness")
     CHECK(features[30] == doctest::Approx(std::log(0.5) / 2 + 1));
     CHECK(features[40] == 1);
     CHECK(features[41] == 0);
+    for (const int first : { 43, 57 }) { // R/G of all pixels and of the bright ones, B/G after each
+        CHECK(features[first] == doctest::Approx(std::log(1.002 / 0.502)));
+        CHECK(features[first + 7] == doctest::Approx(std::log(0.002 / 0.502)));
+    }
 }
 
 TEST_CASE("the anchor's network corrects the golden model's gains")
@@ -87,12 +91,12 @@ TEST_CASE("the anchor's network corrects the golden model's gains")
     Expected<SafeTensors> golden = parse_safetensors(*bytes, path);
     REQUIRE(golden);
     ModelFile file{ golden->metadata, golden->tensors };
-    file.metadata["format"] = "srisp-2";
-    const std::int64_t sizes[] = { 24 + 2 * kQuantileFeatures, 64, 64, 3 };
-    for (int l = 0; l < 3; ++l) {
+    file.metadata["format"] = "srisp-3";
+    const std::int64_t sizes[] = { 24 + 2 * kQuantileFeatures, 256, 256, 256, 3 };
+    for (int l = 0; l < 4; ++l) {
         const std::string layer = "anchor_network." + std::to_string(l);
         file.tensors[layer + ".weight"] = made_up(
-            { sizes[l + 1], sizes[l] }, l < 2 ? 0.1 : 0.05, [](double v) { return std::sin(v); }, 0.7, l);
+            { sizes[l + 1], sizes[l] }, 0.05, [](double v) { return std::sin(v); }, 0.7, l);
         file.tensors[layer + ".bias"] = made_up(
             { sizes[l + 1] }, 0.05, [](double v) { return std::cos(v); }, 1, l);
     }
@@ -115,12 +119,12 @@ TEST_CASE("the anchor's network corrects the golden model's gains")
 TEST_CASE("a network without an anchor, or of another shape, is refused")
 {
     ModelFile file = random_model(3, 1);
-    file.metadata["format"] = "srisp-2";
+    file.metadata["format"] = "srisp-3";
     Expected<std::unique_ptr<ModelData>> model = parse_model(file.bytes(), "m");
     REQUIRE(!model);
     CHECK(model.error().message == "m: has no tensor 'anchor_network.0.weight'");
     file.metadata["anchor"] = "0";
     model = parse_model(file.bytes(), "m");
     REQUIRE(!model);
-    CHECK(model.error().message == "m: metadata 'format' is srisp-2 but 'anchor' is 0; its network needs the anchor");
+    CHECK(model.error().message == "m: metadata 'format' is srisp-3 but 'anchor' is 0; its network needs the anchor");
 }
