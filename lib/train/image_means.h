@@ -19,10 +19,10 @@ inline torch::Tensor mean_squares(const torch::Tensor& images)
     return images.square().mean({ 2, 3 });
 }
 
-/// What errors of log means [N, 3] cost, [N]: ln of the part of the truth's squares that they miss, plus ln of the
-/// squared errors of R/G and B/G (those of brightness are many times as large, and would hide them). Logs, since the
-/// mean of PSNR is one of logs: it pays to be right where the images tell the mean, not a little less wrong where they
-/// do not. The floors are what an error of 20 % and one of colour of 10 % would miss: below, other errors count.
+/// What errors of log means [N, 3] cost, [N]: ln(1 + m / 0.2²) of the part m of the truth's squares that they miss,
+/// plus ln(1 + c / 0.1²) of the squared errors c of ln R/G and ln B/G (those of brightness are many times as large, and
+/// would hide them). Logs, since the mean of PSNR is one of logs: it pays to be right where the images tell the mean,
+/// not a little less wrong where they do not. Below errors of 20 %, and of 10 % of colour, others count more.
 inline torch::Tensor cost_of_means(const torch::Tensor& errors_of_logs, const torch::Tensor& truth_squares)
 {
     constexpr double kBrightnessFloor = 0.2 * 0.2, kColorFloor = 0.1 * 0.1;
@@ -31,7 +31,7 @@ inline torch::Tensor cost_of_means(const torch::Tensor& errors_of_logs, const to
     const torch::Tensor green = errors_of_logs.select(1, 1);
     const torch::Tensor color =
         (errors_of_logs.select(1, 0) - green).square() + (errors_of_logs.select(1, 2) - green).square();
-    return (missed + kBrightnessFloor).log() + (color + kColorFloor).log();
+    return (missed / kBrightnessFloor).log1p() + (color / kColorFloor).log1p();
 }
 
 } // namespace srisp::train

@@ -59,15 +59,16 @@ TEST_CASE("terms for brightness, highlights, round trip and white")
 {
     LossSettings settings = nothing();
     settings.means = 1;
+    CHECK(only(settings, { grey(0.5), grey(0.2), grey(0.2), {}, {} }) == 0);
     // Twice too bright: all of the squares are missed.
     CHECK(only(settings, { grey(0.5), grey(0.2), grey(0.4), {}, {} }) ==
-          doctest::Approx(std::log(1.04) + std::log(0.01)).epsilon(1e-5));
+          doctest::Approx(std::log(1 + 1 / 0.04)).epsilon(1e-5));
 
     torch::Tensor reddish = grey(0.4);
     reddish[0][0].fill_(0.8);
-    CHECK(
-        only(settings, { grey(0.5), grey(0.2), reddish, {}, {} }) ==
-        doctest::Approx(std::log((9 + 1 + 1) / 3.0 + 0.04) + std::log(std::pow(std::log(2), 2) + 0.01)).epsilon(1e-5));
+    CHECK(only(settings, { grey(0.5), grey(0.2), reddish, {}, {} }) ==
+          doctest::Approx(std::log(1 + (9 + 1 + 1) / 3.0 / 0.04) + std::log(1 + std::pow(std::log(2), 2) / 0.01))
+              .epsilon(1e-5));
 
     settings = nothing();
     settings.angle = 1;
