@@ -28,6 +28,9 @@ Expected<Membership> find_membership(Membership given, const std::function<const
 /// std::runtime_error, with a message for people, when another process is gone or does not answer in time.
 class ProcessGroup {
 public:
+    /// Whether this program was built to run as several processes.
+    static bool several_possible();
+
     /// Waits until all have come. A group of one does nothing.
     explicit ProcessGroup(const Membership& membership);
     ~ProcessGroup();

@@ -2,6 +2,7 @@
 #include "network.h"
 
 #include <doctest/doctest.h>
+#include <torch/cuda.h>
 
 #include "tensor_tools.h"
 
@@ -162,4 +163,16 @@ TEST_CASE("colour atoms may be given, and are completed where there are too few"
     for (int a = 0; a < 5; ++a)
         for (int b = 0; b < a; ++b)
             CHECK(largest(color[a] - color[b]) > 1e-3);
+}
+
+TEST_CASE("on the device that training takes, a GPU where there is one, a network computes what it does on the CPU")
+{
+    const torch::NoGradGuard no_gradients;
+    Network network({}, 1);
+    const torch::Tensor photo = smooth_images(3, 64, 64, 4, 0.2, 0.9), raw = smooth_images(3, 64, 64, 5, 0.02, 0.3);
+    const torch::Tensor expected = network.reverse(photo, raw);
+    const torch::Device device = torch::cuda::is_available() ? torch::kCUDA : torch::kCPU;
+    network.to(device);
+    const torch::Tensor actual = network.reverse(photo.to(device), raw.to(device)).cpu();
+    CHECK((actual - expected).abs().max().item<double>() < 2e-3); // GPUs round factors to TF32
 }
