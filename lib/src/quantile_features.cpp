@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "statistics.h"
+#include "quantiles.h"
 
 namespace srisp {
 
@@ -61,8 +61,7 @@ std::array<float, kQuantileFeatures> quantile_features(Planes image, int height,
     std::array<float, kQuantileFeatures> features;
     auto next = features.begin();
     for (const std::vector<float>& channel : channels) {
-        std::vector<float> values = channel;
-        Quantiles quantile(values);
+        const Quantiles quantile(channel);
         for (const double q : kQuantiles)
             *next++ = static_cast<float>(std::log(std::max(quantile(q), kDarkest)) * 0.5 + 1);
     }
@@ -71,12 +70,10 @@ std::array<float, kQuantileFeatures> quantile_features(Planes image, int height,
             std::count_if(channels[c].begin(), channels[c].end(), [](float v) { return v > kClipped; });
         *next++ = static_cast<float>(clipped) / static_cast<float>(channels[c].size());
     }
-    std::vector<float> means = channels[3];
-    const double bright = Quantiles(means)(kBright);
+    const double bright = Quantiles(channels[3])(kBright);
     for (const double darkest : { 0.0, bright })
         for (const int c : { 0, 2 }) {
-            std::vector<float> colors = log_ratios(channels[c], channels[1], channels[3], darkest);
-            Quantiles quantile(colors);
+            const Quantiles quantile(log_ratios(channels[c], channels[1], channels[3], darkest));
             for (const double q : kColorQuantiles)
                 *next++ = static_cast<float>(quantile(q));
         }

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
+
+#include "quantiles.h"
 
 namespace srisp {
 
@@ -26,18 +30,6 @@ double sum_of_logs(const std::vector<float>& values)
 
 } // namespace
 
-double Quantiles::operator()(double q)
-{
-    const double position = q * (m_values.size() - 1);
-    const auto below = m_values.begin() + static_cast<std::ptrdiff_t>(position);
-    std::nth_element(m_begin, below, m_values.end());
-    m_begin = below;
-    const double fraction = position - std::floor(position);
-    if (fraction == 0 || below + 1 == m_values.end())
-        return *below;
-    return *below + fraction * (static_cast<double>(*std::min_element(below + 1, m_values.end())) - *below);
-}
-
 std::array<float, 12> statistics(Planes image, std::size_t count)
 {
     std::array<float, 12> result;
@@ -47,7 +39,7 @@ std::array<float, 12> statistics(Planes image, std::size_t count)
         for (const float v : values)
             sum += v;
         const double log_sum = sum_of_logs(values);
-        Quantiles quantile(values);
+        const Quantiles quantile(std::move(values));
         const double median = quantile(0.5), bright = quantile(0.98);
         const double numbers[] = { std::log(std::max(sum / count, kFloor)), log_sum / count,
                                    std::log(std::max(median, kFloor)), std::log(std::max(bright, kFloor)) };

@@ -8,7 +8,6 @@
 #include <srisp/model.h>
 
 #include "random_model.h"
-#include "statistics.h"
 
 using namespace srisp;
 
@@ -78,17 +77,4 @@ TEST_CASE("black, white and single-colour thumbnails still give usable parameter
         CHECK(check_parameters(selected(flat, random_thumbnail(3, 0.5f)), *default_model()));
         CHECK(check_parameters(selected(random_thumbnail(3, 1), flat), *default_model()));
     }
-}
-
-TEST_CASE("quantiles interpolate linearly, and the median of an even count is the mean of the middle two")
-{
-    std::vector<float> four{ 4, 1, 3, 2 }, five{ 5, 1, 3, 2, 4 }, one{ 7 };
-    CHECK(Quantiles(four)(0.5) == 2.5);
-    Quantiles of_five(five);
-    CHECK(of_five(0) == 1);
-    CHECK(of_five(0.5) == 3);
-    CHECK(of_five(0.5) == 3);
-    CHECK(of_five(0.98) == doctest::Approx(4.92));
-    CHECK(of_five(1) == 5);
-    CHECK(Quantiles(one)(0.98) == 7);
 }
