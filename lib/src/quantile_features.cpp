@@ -36,14 +36,22 @@ std::vector<float> block_means(const float* plane, int height, int width)
     return means;
 }
 
-/// ln of the ratio to green, of the pixels whose mean is at least `darkest`.
-std::vector<float> log_ratios(const std::vector<float>& channel, const std::vector<float>& green,
-                              const std::vector<float>& means, double darkest)
+/// ln of each pixel's ratio to green.
+std::vector<float> log_ratios(const std::vector<float>& channel, const std::vector<float>& green)
+{
+    std::vector<float> result(channel.size());
+    for (std::size_t i = 0; i < channel.size(); ++i)
+        result[i] = static_cast<float>(std::log((channel[i] + kColorFloor) / (green[i] + kColorFloor)));
+    return result;
+}
+
+/// Those values whose pixel's mean is at least `darkest`.
+std::vector<float> bright_ones(const std::vector<float>& values, const std::vector<float>& means, double darkest)
 {
     std::vector<float> result;
-    for (std::size_t i = 0; i < channel.size(); ++i)
+    for (std::size_t i = 0; i < values.size(); ++i)
         if (means[i] >= darkest)
-            result.push_back(static_cast<float>(std::log((channel[i] + kColorFloor) / (green[i] + kColorFloor))));
+            result.push_back(values[i]);
     return result;
 }
 
@@ -60,23 +68,25 @@ std::array<float, kQuantileFeatures> quantile_features(Planes image, int height,
 
     std::array<float, kQuantileFeatures> features;
     auto next = features.begin();
+    double bright = 0; // of the means: they come last
     for (const std::vector<float>& channel : channels) {
         const Quantiles quantile(channel);
         for (const double q : kQuantiles)
             *next++ = static_cast<float>(std::log(std::max(quantile(q), kDarkest)) * 0.5 + 1);
+        bright = quantile(kBright);
     }
     for (int c = 0; c < 3; ++c) {
         const auto clipped =
             std::count_if(channels[c].begin(), channels[c].end(), [](float v) { return v > kClipped; });
         *next++ = static_cast<float>(clipped) / static_cast<float>(channels[c].size());
     }
-    const double bright = Quantiles(channels[3])(kBright);
-    for (const double darkest : { 0.0, bright })
-        for (const int c : { 0, 2 }) {
-            const Quantiles quantile(log_ratios(channels[c], channels[1], channels[3], darkest));
-            for (const double q : kColorQuantiles)
-                *next++ = static_cast<float>(quantile(q));
-        }
+    const std::vector<float> red = log_ratios(channels[0], channels[1]), blue = log_ratios(channels[2], channels[1]);
+    for (const std::vector<float>& ratios :
+         { red, blue, bright_ones(red, channels[3], bright), bright_ones(blue, channels[3], bright) }) {
+        const Quantiles quantile(ratios);
+        for (const double q : kColorQuantiles)
+            *next++ = static_cast<float>(quantile(q));
+    }
     return features;
 }
 

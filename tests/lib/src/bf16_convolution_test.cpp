@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bf16_convolution.h"
 
-#include <cstdio>
-
 #include <doctest/doctest.h>
 
 #include "image_compare.h"
 #include "random_model.h"
+#include "skip_unless.h"
 
 using namespace srisp;
 
@@ -74,10 +73,7 @@ TEST_CASE("a pair holds two numbers, each rounded to the nearest bf16, ties to e
 
 TEST_CASE("layers in bf16 are the plain sums of rounded numbers, for widths that fill no block")
 {
-    if (!has_bf16()) {
-        std::printf("SKIPPED bf16 kernels: this processor has no AVX-512 BF16\n");
-        return;
-    }
+    SKIP_UNLESS(has_bf16(), "a processor with AVX-512 BF16");
     for (const int width : { 1, 16, 17, 33, 100, 384 })
         for (const bool relu : { false, true }) {
             INFO("width ", width, relu ? ", relu" : "");

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trainer.h"
 
-#include <cstdio>
 #include <thread>
 
 #include <doctest/doctest.h>
 
+#include "skip_unless.h"
 #include "toy_training.h"
 
 using namespace srisp;
 using namespace srisp::train;
-
-/// Leaves the test, loudly, where several processes are not possible. tests/run.sh counts the lines.
-#define SKIP_WITHOUT_GLOO()                                                                                            \
-    if (!ProcessGroup::several_possible()) {                                                                           \
-        std::fprintf(stderr, "SKIPPED %s:%d: needs Gloo's headers\n", __FILE__, __LINE__);                             \
-        return;                                                                                                        \
-    }
 
 namespace {
 
@@ -134,7 +127,7 @@ TEST_CASE("a step whose loss is not a number changes nothing")
 
 TEST_CASE("the others wait for what rank 0 does alone, longer than their timeout")
 {
-    SKIP_WITHOUT_GLOO();
+    SKIP_UNLESS(ProcessGroup::several_possible(), "Gloo's headers");
     const std::string address = free_address();
     bool done = false, done_when_released = false;
     std::thread other([&] {
@@ -156,7 +149,7 @@ TEST_CASE("the others wait for what rank 0 does alone, longer than their timeout
 
 TEST_CASE("two processes learn what one learns from the same batches")
 {
-    SKIP_WITHOUT_GLOO();
+    SKIP_UNLESS(ProcessGroup::several_possible(), "Gloo's headers");
     ProcessGroup alone({});
     Trainer single = toy_trainer(toy_settings(12), alone);
     const std::vector<StepReport> expected = do_steps(single, 12);
@@ -185,7 +178,7 @@ TEST_CASE("two processes learn what one learns from the same batches")
 
 TEST_CASE("processes notice that they do not train the same, take over rank 0's state, and stop together")
 {
-    SKIP_WITHOUT_GLOO();
+    SKIP_UNLESS(ProcessGroup::several_possible(), "Gloo's headers");
     const std::string address = free_address();
     std::string messages[2];
     bool stopped[2];
@@ -216,7 +209,7 @@ TEST_CASE("processes notice that they do not train the same, take over rank 0's 
 
 TEST_CASE("a process that is gone ends the others with a message")
 {
-    SKIP_WITHOUT_GLOO();
+    SKIP_UNLESS(ProcessGroup::several_possible(), "Gloo's headers");
     const std::string address = free_address();
     std::string message;
     std::thread other([&] {
@@ -240,7 +233,7 @@ TEST_CASE("a process that is gone ends the others with a message")
 
 TEST_CASE("a process that waits for others in vain gives up")
 {
-    SKIP_WITHOUT_GLOO();
+    SKIP_UNLESS(ProcessGroup::several_possible(), "Gloo's headers");
     std::string message;
     try {
         ProcessGroup group({ 2, 0, free_address(), 1 });
