@@ -66,6 +66,8 @@ void fit_network(AnchorNetwork& network, const Rows& rows, const AnchorFit& line
     const torch::Tensor missed = (rows.log_means - line_of(line, rows.inputs)).to(device);
     const torch::Tensor squares = rows.squares.to(device);
 
+    if (settings.carry_on)
+        network.take_scaled_inputs(mean, deviation);
     OptimizerSettings optimizer;
     optimizer.rate = settings.rate;
     optimizer.weight_decay = settings.weight_decay;
@@ -128,6 +130,8 @@ std::optional<AnchorFit> start_anchor(Unprocessor& model, Samples& samples, cons
     if (!network || !network->has_anchor())
         return {};
     AnchorNetwork* const correction = network->anchor_network();
+    if (settings.carry_on && !correction)
+        return {};
     const auto report = [&](double from, double to, double part) {
         if (progress)
             progress(from + (to - from) * part);
@@ -140,8 +144,15 @@ std::optional<AnchorFit> start_anchor(Unprocessor& model, Samples& samples, cons
     }
     const std::int64_t fitted = settings.pairs - settings.pairs / 10;
     const Rows rows = all.slice(0, fitted), tested = all.slice(fitted, settings.pairs);
-    AnchorFit fit = fit_line(rows.inputs.slice(1, 0, kAnchorStatistics), rows.log_means, settings.ridge);
-    network->set_anchor(fit.weight, fit.bias);
+    AnchorFit fit;
+    if (settings.carry_on) {
+        const std::vector<torch::Tensor> anchor = model.anchor_parameters();
+        fit.weight = anchor[0].detach().cpu();
+        fit.bias = anchor[1].detach().cpu();
+    } else {
+        fit = fit_line(rows.inputs.slice(1, 0, kAnchorStatistics), rows.log_means, settings.ridge);
+        network->set_anchor(fit.weight, fit.bias);
+    }
     if (correction)
         fit_network(*correction, rows, fit, settings, seed, [&](double part) { report(kMakingPairs, 1, part); });
 

@@ -16,6 +16,7 @@ namespace srisp::train {
 /// line in closed form, then the network by Adam on what the line misses.
 struct AnchorFitSettings {
     std::string from; ///< a model's name or path; empty: fit
+    bool carry_on = false;
     int pairs = 24000;
     double ridge = 1e-3;
     int steps = 3000;
@@ -27,6 +28,7 @@ struct AnchorFitSettings {
     template<class Visitor> void describe(Visitor& v)
     {
         v.path("from", from, "model whose anchor is taken as it is, instead of a fit: a name or a path");
+        v.flag("carry_on", carry_on, "a run that starts from a finished model fits its anchor's network further first");
         v.integer("pairs", pairs, 32, 10'000'000, "training pairs that the anchor is fitted to before the first step");
         v.number("ridge", ridge, 0, 1e3, "penalty on the squared weights of the line, per pair");
         v.integer("steps", steps, 1, 10'000'000, "optimiser steps of the anchor's network");
@@ -53,8 +55,9 @@ AnchorFit fit_line(const torch::Tensor& statistics, const torch::Tensor& log_mea
 /// Gives `model` the anchor of another, of whatever kernel size. An error where either has none or theirs differ.
 Status take_anchor(Unprocessor& model, Unprocessor& other);
 
-/// Fits the model's anchor to pseudo pairs of the first steps; nothing where the model has none. `progress` gets the
-/// part that is done, 0 … 1. `seed`: of the network's batches.
+/// Fits the model's anchor to pseudo pairs of the first steps; nothing where the model has none. To carry on: the line
+/// stays, the network learns from where it is; nothing where there is none. `progress` gets the part that is done,
+/// 0 … 1. `seed`: of the network's batches.
 std::optional<AnchorFit> start_anchor(Unprocessor& model, Samples& samples, const AnchorFitSettings& settings,
                                       std::uint64_t seed, const std::function<void(double)>& progress = {});
 

@@ -52,4 +52,12 @@ void AnchorNetwork::take_plain_inputs(const torch::Tensor& mean, const torch::Te
     first.bias.sub_(torch::mv(first.weight, mean));
 }
 
+void AnchorNetwork::take_scaled_inputs(const torch::Tensor& mean, const torch::Tensor& deviation)
+{
+    const torch::NoGradGuard no_gradient;
+    Layer& first = *m_layers.front();
+    first.bias.add_(torch::mv(first.weight, mean));
+    first.weight.mul_(deviation);
+}
+
 } // namespace srisp::train

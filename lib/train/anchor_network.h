@@ -24,6 +24,8 @@ public:
 
     /// Makes a network that learnt from (inputs − mean) / deviation one that takes the inputs as they are.
     void take_plain_inputs(const torch::Tensor& mean, const torch::Tensor& deviation);
+    /// The other way.
+    void take_scaled_inputs(const torch::Tensor& mean, const torch::Tensor& deviation);
 
 private:
     std::vector<std::shared_ptr<Layer>> m_layers;

@@ -52,6 +52,11 @@ Expected<RunEnd> TrainingRun::go(const std::function<bool()>& stop)
     m_first_step = m_logged_step = m_trainer.steps_done();
     m_start = m_last_checkpoint = Clock::now();
     m_logged_seconds = seconds();
+    const auto validate_now = [this] {
+        m_group.rank_0_alone([&](const std::function<void()>& still_there) { validate(still_there); });
+    };
+    if (m_settings.validate_first && m_first_step == 0)
+        validate_now();
     while (!m_trainer.finished()) {
         const StepReport step = m_trainer.step(stop());
         const std::string number = std::to_string(m_trainer.steps_done());
@@ -62,7 +67,7 @@ Expected<RunEnd> TrainingRun::go(const std::function<bool()>& stop)
                              ", lowest " + std::to_string(m_lowest_loss));
         add_up(step);
         if (m_trainer.steps_done() % m_settings.validate_every == 0 || m_trainer.finished())
-            m_group.rank_0_alone([&](const std::function<void()>& still_there) { validate(still_there); });
+            validate_now();
         if (m_group.writes()) {
             report(step);
             checkpoint(When::at_interval);

@@ -22,6 +22,7 @@ struct RunSettings {
     int log_every = 10;
     double checkpoint_minutes = 3;
     double divergence = 5;
+    bool validate_first = false; ///< not in recipes: a run that starts from a finished model keeps it if it is the best
 
     template<class Visitor> void describe(Visitor& v)
     {

@@ -128,7 +128,7 @@ Session open_session(const Options& options)
 std::optional<AnchorFit> start_model(Session& session, bool quiet, const std::function<void()>& still_there)
 {
     const Recipe& recipe = session.settings();
-    if (!recipe.init.empty())
+    if (!recipe.init.empty() && !recipe.anchor_fit.carry_on)
         return {};
     if (const std::string& name = recipe.anchor_fit.from; !name.empty()) {
         const LoadedModel other = require(load_model(require(find_model_file(name))));
@@ -137,7 +137,9 @@ std::optional<AnchorFit> start_model(Session& session, bool quiet, const std::fu
         return {};
     }
     ProgressMeter meter("srisptrain: fitting the anchor", "%", 100, !quiet);
-    return start_anchor(*session.model, *session.samples, recipe.anchor_fit, static_cast<std::uint64_t>(recipe.seed),
+    AnchorFitSettings settings = recipe.anchor_fit;
+    settings.carry_on = !recipe.init.empty(); // there is nothing to carry on in a new model
+    return start_anchor(*session.model, *session.samples, settings, static_cast<std::uint64_t>(recipe.seed),
                         [&](double part) {
                             meter.show(static_cast<std::int64_t>(part * 100));
                             still_there();

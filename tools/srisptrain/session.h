@@ -35,8 +35,8 @@ train::LoadedRecipe recipe_of(const Options& options);
 /// Opens everything; fails with a message about what is wrong.
 Session open_session(const Options& options);
 
-/// The fit of a new model's anchor; nothing where it has none, or started from another model. Calls `still_there` now
-/// and then.
+/// The fit of a new model's anchor, or further fit of a finished one's, if the recipe says so; nothing where there is
+/// none. Calls `still_there` now and then.
 std::optional<train::AnchorFit> start_model(Session& session, bool quiet, const std::function<void()>& still_there);
 
 } // namespace srisp

@@ -30,6 +30,40 @@ void say_anchor(Host& host, const AnchorFit& fit)
     host.note(text);
 }
 
+/// Rank 0: what is done before the first step. A further fit of a finished model's anchor is taken back where the
+/// validation says that it does harm, as it can with few images.
+void prepare(Session& session, Host& host, bool quiet, const std::function<void()>& still_there)
+{
+    const Recipe& recipe = session.settings();
+    const auto test = [&]() -> std::optional<Validation> {
+        if (recipe.init.empty() || !recipe.anchor_fit.carry_on)
+            return {};
+        return host.validate(*session.model, still_there);
+    };
+    std::vector<torch::Tensor> before;
+    for (const torch::Tensor& parameter : session.model->anchor_parameters())
+        before.push_back(parameter.detach().clone());
+    const std::optional<Validation> without = test();
+    const std::optional<AnchorFit> fit = start_model(session, quiet, still_there);
+    if (!fit)
+        return;
+    say_anchor(host, *fit);
+    const std::optional<Validation> with = test();
+    if (!with)
+        return;
+    char text[160];
+    std::snprintf(text, sizeof text, "validation: %.2f dB and %.2f deg with it, %.2f dB and %.2f deg without",
+                  with->psnr, with->angle, without->psnr, without->angle);
+    host.note(text);
+    if (with->score > without->score)
+        return;
+    host.note("the model's own anchor stays");
+    const torch::NoGradGuard no_gradient;
+    std::vector<torch::Tensor> parameters = session.model->anchor_parameters();
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+        parameters[i].copy_(before[i]);
+}
+
 /// Rank 0: where the training starts.
 void start(Session& session, TrainingRun& run, OutputFolder& folder, Host& host, bool restart)
 {
@@ -61,14 +95,15 @@ int train_model(Session& session, const Options& options)
     }
     session.group->rank_0_alone([&](const std::function<void()>& still_there) {
         if (options.restart || !find_checkpoint(recipe.output, recipe, session.pack->hash()))
-            if (const auto fit = start_model(session, options.quiet, still_there))
-                say_anchor(host, *fit);
+            prepare(session, host, options.quiet, still_there);
     });
     Trainer trainer(
         recipe.trainer, session.model, [&session] { return session.another(); }, session.samples, *session.group,
         session.device, static_cast<std::uint64_t>(recipe.seed));
-    TrainingRun run(trainer, *session.group, recipe.run, recipe.trainer.steps, origin_of(recipe, session.pack->hash()),
-                    recipe.output, host);
+    RunSettings run_settings = recipe.run;
+    run_settings.validate_first = !recipe.init.empty();
+    TrainingRun run(trainer, *session.group, run_settings, recipe.trainer.steps,
+                    origin_of(recipe, session.pack->hash()), recipe.output, host);
     if (writes)
         start(session, run, *folder, host, options.restart);
     watch_interrupts();

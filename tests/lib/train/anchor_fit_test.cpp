@@ -117,6 +117,54 @@ TEST_CASE("the anchor's network learns what its line misses, the same from the s
     CHECK(error.square().mean().sqrt().item<double>() < 1.5 * fit->deviation);
 }
 
+TEST_CASE("a finished anchor is carried on: the line stays, the network learns from where it is")
+{
+    BentPairs pairs;
+    AnchorFitSettings settings;
+    settings.pairs = 2000;
+    settings.steps = 800;
+    Network network({}, 1);
+    const std::optional<AnchorFit> first = start_anchor(network, pairs, settings, 5);
+    REQUIRE(first);
+    const torch::Tensor line = network.anchor_parameters()[0].detach().clone();
+    const Batch batch = pairs.batch(99, 0, 20, 0, 0);
+    const torch::NoGradGuard no_gradient;
+    const torch::Tensor before = network.reverse(batch.source, batch.reference);
+
+    settings.carry_on = true;
+    settings.steps = 1;
+    settings.rate = 0;
+    std::optional<AnchorFit> further;
+    {
+        const torch::AutoGradMode gradients(true);
+        further = start_anchor(network, pairs, settings, 5);
+    }
+    REQUIRE(further);
+    CHECK(torch::equal(network.anchor_parameters()[0], line));
+    CHECK(further->deviation == doctest::Approx(first->deviation).epsilon(1e-3));
+    CHECK(torch::allclose(network.reverse(batch.source, batch.reference), before, 1e-3, 1e-4));
+
+    settings.steps = 800;
+    settings.rate = 1e-3;
+    {
+        const torch::AutoGradMode gradients(true);
+        further = start_anchor(network, pairs, settings, 6);
+    }
+    CHECK(further->deviation < first->deviation);
+    CHECK(torch::equal(network.anchor_parameters()[0], line));
+}
+
+TEST_CASE("without a network there is nothing to carry on")
+{
+    ModelSettings line;
+    line.anchor_network = false;
+    Network network(line, 1);
+    SimplePairs pairs;
+    AnchorFitSettings settings;
+    settings.carry_on = true;
+    CHECK(!start_anchor(network, pairs, settings, 1));
+}
+
 TEST_CASE("a model without an anchor is left alone")
 {
     ModelSettings settings;

@@ -149,6 +149,22 @@ TEST_CASE("the model that scores best is kept")
     CHECK(lines_of(scratch.path("log.csv"))[2].find(",30.0,30.0,5.0") != std::string::npos);
 }
 
+TEST_CASE("a run that starts from a finished model keeps that if no step makes it better, after a stop, too")
+{
+    const ScratchFolder scratch;
+    RunSettings settings = quick();
+    settings.validate_first = true;
+    ToyRun run(scratch.path(), settings, 8);
+    run.host.scores = { 32, 31 };
+    CHECK(run.go(5) == "stopped");
+    CHECK(run.host.saved == "0 ");
+    ToyRun again(scratch.path(), settings, 8);
+    again.host.scores = { 31.5 };
+    CHECK(again.go() == "finished");
+    CHECK(again.host.saved == "");
+    CHECK(load_checkpoint(again.checkpoint())->numbers.at("best_step") == 0);
+}
+
 TEST_CASE("without a validation the last model is kept")
 {
     const ScratchFolder scratch;
