@@ -67,9 +67,10 @@ bool print_output(const Session& session, const Options& options)
 double anchor_seconds(Session& session)
 {
     const Recipe& recipe = session.settings();
-    if ((!recipe.init.empty() && !recipe.anchor_fit.carry_on) || !recipe.anchor_fit.from.empty())
+    if ((!recipe.init.empty() && !carries_anchor_on(recipe)) || !recipe.anchor_fit.from.empty())
         return 0;
     AnchorFitSettings few = recipe.anchor_fit;
+    few.carry_on = carries_anchor_on(recipe);
     few.pairs = std::min(few.pairs, kAnchorPairs);
     bool fitted = false;
     const auto fit_seconds = [&](int steps) {

@@ -125,10 +125,15 @@ Session open_session(const Options& options)
     return session;
 }
 
+bool carries_anchor_on(const Recipe& recipe)
+{
+    return recipe.anchor_fit.carry_on && !recipe.init.empty();
+}
+
 std::optional<AnchorFit> start_model(Session& session, bool quiet, const std::function<void()>& still_there)
 {
     const Recipe& recipe = session.settings();
-    if (!recipe.init.empty() && !recipe.anchor_fit.carry_on)
+    if (!recipe.init.empty() && !carries_anchor_on(recipe))
         return {};
     if (const std::string& name = recipe.anchor_fit.from; !name.empty()) {
         const LoadedModel other = require(load_model(require(find_model_file(name))));
@@ -138,7 +143,7 @@ std::optional<AnchorFit> start_model(Session& session, bool quiet, const std::fu
     }
     ProgressMeter meter("srisptrain: fitting the anchor", "%", 100, !quiet);
     AnchorFitSettings settings = recipe.anchor_fit;
-    settings.carry_on = !recipe.init.empty(); // there is nothing to carry on in a new model
+    settings.carry_on = carries_anchor_on(recipe);
     return start_anchor(*session.model, *session.samples, settings, static_cast<std::uint64_t>(recipe.seed),
                         [&](double part) {
                             meter.show(static_cast<std::int64_t>(part * 100));

@@ -34,23 +34,20 @@ void say_anchor(Host& host, const AnchorFit& fit)
 /// validation says that it does harm, as it can with few images.
 void prepare(Session& session, Host& host, bool quiet, const std::function<void()>& still_there)
 {
-    const Recipe& recipe = session.settings();
-    const auto test = [&]() -> std::optional<Validation> {
-        if (recipe.init.empty() || !recipe.anchor_fit.carry_on)
-            return {};
-        return host.validate(*session.model, still_there);
-    };
-    std::vector<torch::Tensor> before;
-    for (const torch::Tensor& parameter : session.model->anchor_parameters())
-        before.push_back(parameter.detach().clone());
-    const std::optional<Validation> without = test();
+    std::shared_ptr<Unprocessor> before;
+    std::optional<Validation> without;
+    if (carries_anchor_on(session.settings())) {
+        before = session.another();
+        if (take_anchor(*before, *session.model))
+            without = host.validate(*session.model, still_there);
+    }
     const std::optional<AnchorFit> fit = start_model(session, quiet, still_there);
     if (!fit)
         return;
     say_anchor(host, *fit);
-    const std::optional<Validation> with = test();
-    if (!with)
+    if (!without)
         return;
+    const std::optional<Validation> with = host.validate(*session.model, still_there);
     char text[160];
     std::snprintf(text, sizeof text, "validation: %.2f dB and %.2f deg with it, %.2f dB and %.2f deg without",
                   with->psnr, with->angle, without->psnr, without->angle);
@@ -58,10 +55,8 @@ void prepare(Session& session, Host& host, bool quiet, const std::function<void(
     if (with->score > without->score)
         return;
     host.note("the model's own anchor stays");
-    const torch::NoGradGuard no_gradient;
-    std::vector<torch::Tensor> parameters = session.model->anchor_parameters();
-    for (std::size_t i = 0; i < parameters.size(); ++i)
-        parameters[i].copy_(before[i]);
+    if (const Status status = take_anchor(*session.model, *before); !status)
+        fail(status.error().message);
 }
 
 /// Rank 0: where the training starts.
