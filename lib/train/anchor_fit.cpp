@@ -18,12 +18,13 @@ constexpr double kMakingPairs = 0.9; // part of the work
 
 /// What the anchor is fitted to, a row for each pair.
 struct Rows {
-    torch::Tensor inputs;             ///< [n, 166]; [n, 24] without a network
-    torch::Tensor log_means, squares; ///< of the RAW, [n, 3]
+    torch::Tensor inputs; ///< [n, 166]; [n, 24] without a network
+    torch::Tensor means;  ///< of the RAW, [n, 3, 3], as `means_of` returns them
 
+    torch::Tensor log_means() const { return means.select(1, 0); }
     Rows slice(std::int64_t begin, std::int64_t end) const
     {
-        return { inputs.slice(0, begin, end), log_means.slice(0, begin, end), squares.slice(0, begin, end) };
+        return { inputs.slice(0, begin, end), means.slice(0, begin, end) };
     }
 };
 
@@ -39,19 +40,18 @@ torch::Tensor line_of(const AnchorFit& fit, const torch::Tensor& inputs)
 
 Rows collect(Samples& samples, int pairs, bool with_quantiles, const std::function<void(double)>& progress)
 {
-    std::vector<torch::Tensor> inputs, means, squares;
+    std::vector<torch::Tensor> inputs, means;
     for (int done = 0, step = 0; done < pairs; ++step) {
         const int count = std::min(kBatch, pairs - done);
         const Batch batch = samples.batch(step, 0, count, 0, 0);
         const torch::Tensor source = linear_source(batch.source);
         const torch::Tensor statistics = torch::cat({ image_statistics(source), image_statistics(batch.reference) }, 1);
         inputs.push_back((with_quantiles ? anchor_inputs(statistics, source, batch.reference) : statistics).cpu());
-        means.push_back(log_means(batch.truth).cpu());
-        squares.push_back(mean_squares(batch.truth).cpu());
+        means.push_back(means_of(batch.truth).cpu());
         done += count;
         progress(static_cast<double>(done) / pairs);
     }
-    return { torch::cat(inputs), torch::cat(means), torch::cat(squares) };
+    return { torch::cat(inputs), torch::cat(means) };
 }
 
 /// Adam on what the line misses.
@@ -63,8 +63,8 @@ void fit_network(AnchorNetwork& network, const Rows& rows, const AnchorFit& line
     const torch::Tensor mean = rows.inputs.mean(0).to(device);
     const torch::Tensor deviation = rows.inputs.std(0).clamp_min(kSmallest).to(device);
     const torch::Tensor inputs = (rows.inputs.to(device) - mean) / deviation;
-    const torch::Tensor missed = (rows.log_means - line_of(line, rows.inputs)).to(device);
-    const torch::Tensor squares = rows.squares.to(device);
+    const torch::Tensor missed = (rows.log_means() - line_of(line, rows.inputs)).to(device);
+    const torch::Tensor means = rows.means.to(device);
 
     if (settings.carry_on)
         network.take_scaled_inputs(mean, deviation);
@@ -84,7 +84,7 @@ void fit_network(AnchorNetwork& network, const Rows& rows, const AnchorFit& line
             torch::randint(inputs.size(0), { settings.batch }, generator, torch::kLong).to(device);
         parameters.gradients().zero_();
         const torch::Tensor correction = network.forward(inputs.index_select(0, chosen), dropped);
-        cost_of_means(correction - missed.index_select(0, chosen), squares.index_select(0, chosen)).mean().backward();
+        cost_of_means(correction - missed.index_select(0, chosen), means.index_select(0, chosen)).mean().backward();
         adam.update(step, rate_factor(optimizer, step, settings.steps), adam.gradient_norm());
         progress(static_cast<double>(step + 1) / settings.steps);
     }
@@ -150,7 +150,7 @@ std::optional<AnchorFit> start_anchor(Unprocessor& model, Samples& samples, cons
         fit.weight = anchor[0].detach().cpu();
         fit.bias = anchor[1].detach().cpu();
     } else {
-        fit = fit_line(rows.inputs.slice(1, 0, kAnchorStatistics), rows.log_means, settings.ridge);
+        fit = fit_line(rows.inputs.slice(1, 0, kAnchorStatistics), rows.log_means(), settings.ridge);
         network->set_anchor(fit.weight, fit.bias);
     }
     if (correction)
@@ -158,12 +158,12 @@ std::optional<AnchorFit> start_anchor(Unprocessor& model, Samples& samples, cons
 
     const torch::NoGradGuard no_gradient;
     const torch::Device model_device = model.parameters().front().device();
-    const torch::Tensor error = line_of(fit, tested.inputs) - tested.log_means;
+    const torch::Tensor error = line_of(fit, tested.inputs) - tested.log_means();
     fit.line_deviation = fit.deviation = root_mean_square(error);
     if (correction)
         fit.deviation = root_mean_square(error + correction->forward(tested.inputs.to(model_device)).cpu());
     fit.gain_match_deviation =
-        root_mean_square(2 * tested.inputs.slice(1, kStatistics, kStatistics + 3) - 2 - tested.log_means);
+        root_mean_square(2 * tested.inputs.slice(1, kStatistics, kStatistics + 3) - 2 - tested.log_means());
     return fit;
 }
 

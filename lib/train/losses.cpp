@@ -7,7 +7,6 @@ namespace srisp::train {
 
 namespace {
 
-constexpr double kHighlight = 0.8; // of method.md, section 5
 constexpr double kWhite = 0.98;    // every channel of the photo at or above it
 constexpr double kShortest = 1e-3; // of a pixel's vector: the colour of what is darker does not matter
 
@@ -60,9 +59,8 @@ std::vector<LossTerm> loss_terms(const LossSettings& settings, const Compared& i
     if (images.processed.defined())
         add("forward", settings.forward, [&] { return mean_per_image((images.source - images.processed).abs()); });
     add("linear", settings.linear, [&] { return mean_per_image(error()); });
-    add("means", settings.means, [&] {
-        return cost_of_means(log_means(images.predicted) - log_means(images.truth), mean_squares(images.truth));
-    });
+    add("means", settings.means,
+        [&] { return cost_of_means(log_means(images.predicted) - log_means(images.truth), means_of(images.truth)); });
     add("angle", settings.angle, [&] {
         const torch::Tensor difference = directions(images.truth) - directions(images.predicted);
         return mean_per_image((difference.square().sum(1) + 1e-8).sqrt());

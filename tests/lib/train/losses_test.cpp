@@ -70,6 +70,12 @@ TEST_CASE("terms for brightness, highlights, round trip and white")
           doctest::Approx(std::log(1 + (9 + 1 + 1) / 3.0 / 0.04) + std::log(1 + std::pow(std::log(2), 2) / 0.01))
               .epsilon(1e-5));
 
+    // Highlights that come out half as bright are missed, and cost extra; too bright ones cost no more than others.
+    CHECK(only(settings, { grey(0.5), grey(0.9), grey(0.45), {}, {} }) ==
+          doctest::Approx(std::log(1 + 0.25 / 0.04) + 60 * 0.45).epsilon(1e-5));
+    CHECK(only(settings, { grey(0.5), grey(0.9), grey(1.8), {}, {} }) ==
+          doctest::Approx(std::log(1 + 1 / 0.04)).epsilon(1e-5));
+
     settings = nothing();
     settings.angle = 1;
     CHECK(only(settings, { grey(0.5), grey(0.2), grey(0.4), {}, {} }) == doctest::Approx(0).epsilon(1e-3));
