@@ -154,7 +154,8 @@ void record_result(OIIO::ImageSpec& spec, const Parameters& parameters, const Re
     set(spec, "reference", parameters.reference_name);
     set(spec, "reference_hash", parameters.reference_hash);
     if (direction == Direction::reverse) {
-        const float neutral[3] = { 1 / parameters.white_balance[0], 1, 1 / parameters.white_balance[2] };
+        const auto& [red, green, blue] = parameters.white_balance;
+        const float neutral[3] = { green / red, 1, green / blue };
         set(spec, "neutral", neutral, 3);
         if (reference)
             record_facts(spec, reference->facts, neutral);

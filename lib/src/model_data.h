@@ -46,6 +46,7 @@ struct ModelData {
     EncoderWeights source_encoder, reference_encoder;
     std::optional<Linear> source_statistics, reference_statistics, anchor;
     std::vector<Linear> anchor_network; ///< empty in srisp-1
+    bool white_stays_white = false;     ///< the least white-balance gain is 1; not in srisp-1, whose green one is
     Linear fuse;
     BlockSelector tone, gamma, color, white_balance, gain;
 

@@ -236,11 +236,13 @@ private:
     {
         const float red = m_base_gain[0] / m_base_gain[1], blue = m_base_gain[2] / m_base_gain[1];
         const auto apply = [&](const std::array<float, 3>& gains, Planes out) {
-            const float scales[] = { 1 / gains[0], 1.0f, 1 / gains[2] };
+            const float scales[] = { 1 / gains[0], 1 / gains[1], 1 / gains[2] };
             inverse_gain(m_running.planes(), out, kCount, scales);
         };
         const auto product = [&](const std::array<float, 2>& atom) {
-            return std::array<float, 3>{ atom[0] * red, 1.0f, atom[1] * blue };
+            const float r = atom[0] * red, b = atom[1] * blue;
+            const float one = m_model.white_stays_white ? std::min({ r, 1.0f, b }) : 1.0f;
+            return std::array<float, 3>{ r / one, 1 / one, b / one };
         };
         m_parameters.white_balance_weights = candidate_weights(m_model.white_balance, [&](int atom, Planes out) {
             apply(product(m_model.white_balance_atoms[atom]), out);
@@ -256,16 +258,17 @@ private:
 
     void choose_gain()
     {
+        const float base = m_base_gain[1] / m_parameters.white_balance[1];
         const auto apply = [&](float gain, Planes out) {
             const float scales[] = { 1 / gain, 1 / gain, 1 / gain };
             inverse_gain(m_running.planes(), out, kCount, scales);
         };
-        m_parameters.gain_weights = candidate_weights(
-            m_model.gain, [&](int atom, Planes out) { apply(m_model.gain_atoms[atom] * m_base_gain[1], out); });
+        m_parameters.gain_weights =
+            candidate_weights(m_model.gain, [&](int atom, Planes out) { apply(m_model.gain_atoms[atom] * base, out); });
         float mixed = 0;
         for (int k = 0; k < m_model.dictionary_size; ++k)
             mixed += m_parameters.gain_weights[k] * m_model.gain_atoms[k];
-        m_parameters.gain = mixed * m_base_gain[1];
+        m_parameters.gain = mixed * base;
         if (!m_trace)
             return;
         apply(m_parameters.gain, m_running.planes());

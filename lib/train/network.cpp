@@ -208,10 +208,13 @@ private:
         const torch::Tensor green = m_choice.base.slice(1, 1, 2);
         const torch::Tensor base = m_network.m_gain ? m_choice.base / green : m_choice.base;
         const torch::Tensor gains = m_atoms.channel_gains();
+        const auto scaled = [&](const torch::Tensor& products) {
+            return m_network.m_settings.white_stays_white() ? products / products.amin(-1, true) : products;
+        };
         const torch::Tensor weights = choose("white_balance", *m_network.m_white_balance, [&] {
-            return inverse_gain_candidates(m_running, gains.unsqueeze(0) * base.unsqueeze(1));
+            return inverse_gain_candidates(m_running, scaled(gains.unsqueeze(0) * base.unsqueeze(1)));
         });
-        m_choice.white_balance = mixed(weights, gains) * base;
+        m_choice.white_balance = scaled(mixed(weights, gains) * base);
         m_running = inverse_gain(m_running, m_choice.white_balance);
         note("after_white_balance", m_running);
     }
@@ -223,11 +226,11 @@ private:
             m_running = m_running.clamp(0, 1);
             return;
         }
-        const torch::Tensor green = m_choice.base.select(1, 1);
+        const torch::Tensor base = m_choice.base.select(1, 1) / m_choice.white_balance.select(1, 1);
         const torch::Tensor weights = choose("gain", *m_network.m_gain, [&] {
-            return inverse_gain_candidates(m_running, (m_atoms.gain.unsqueeze(0) * green.unsqueeze(1)).unsqueeze(2));
+            return inverse_gain_candidates(m_running, (m_atoms.gain.unsqueeze(0) * base.unsqueeze(1)).unsqueeze(2));
         });
-        m_choice.gain = mixed(weights, m_atoms.gain) * green;
+        m_choice.gain = mixed(weights, m_atoms.gain) * base;
         m_running = inverse_gain(m_running, m_choice.gain.unsqueeze(1)).clamp(0, 1);
         note("after_gain", m_running);
     }

@@ -13,7 +13,7 @@ namespace srisp::train {
 struct Choice {
     torch::Tensor gamma;                          ///< [N]
     torch::Tensor color;                          ///< [N, 3, 3], C: camera RGB to linear sRGB, rows sum to 1
-    torch::Tensor white_balance;                  ///< [N, 3], (g_r, 1, g_b), anchor included
+    torch::Tensor white_balance;                  ///< [N, 3], R, G, B, anchor included
     torch::Tensor gain;                           ///< [N], anchor included
     std::map<std::string, torch::Tensor> weights; ///< selection weights [N, K] by dictionary: "tone.0" … "gain"
     /// The mixed tone kernels of the four layers, [N, O, I, k, k] and [N, O].

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""An independent implementation, in NumPy, of what model format srisp-3 adds to srisp-1: the quantile features and the
-network that corrects the anchor. Writes anchor_network.json, which the tests compare the library with.
+"""An independent implementation, in NumPy, of what model format srisp-4 adds to srisp-1: the quantile features, the
+network that corrects the anchor, and white-balance gains of at least 1. Writes anchor_network.json, which the tests
+compare the library with.
 
     python3 tests/golden/anchor_network.py GOLDEN > tests/golden/anchor_network.json
 
-GOLDEN is the folder with the golden values of srisp-1 (values_spatial.safetensors)."""
+GOLDEN is the folder with the golden model and values of srisp-1 (model_spatial, values_spatial)."""
 import json
 import struct
 import sys
@@ -61,18 +62,75 @@ def made_up_network(inputs):
     return x
 
 
-golden = load(sys.argv[1] + "/values_spatial.safetensors")
-source = np.maximum(golden["thumb.source"].reshape(256, 256, 3).astype(np.float64), 1e-8) ** 2.2
+def convolve(image, weight, bias, stride, border):
+    """3 x 3, image [height, width, channels]."""
+    mode = "edge" if border == "edge" else "constant"
+    padded = np.pad(image, ((1, 1), (1, 1), (0, 0)), mode=mode)
+    windows = np.lib.stride_tricks.sliding_window_view(padded, (3, 3), axis=(0, 1))[::stride, ::stride]
+    return np.tensordot(windows, weight.astype(np.float64), axes=([2, 3, 4], [1, 2, 3])) + bias
+
+
+def layers(image, count, tensors, name, stride, border):
+    for layer in range(count):
+        weight, bias = (tensors[f"{name}.{layer}.{part}"] for part in ("weight", "bias"))
+        image = convolve(image, weight, bias, stride, border)
+        if layer < count - 1:
+            image = np.maximum(image, 0)
+    return image
+
+
+def block_weights(model, block, fused, candidates):
+    """What a block chooses of its atoms, whose reverse outputs are given."""
+    seen = [np.maximum(candidate, 1e-5) ** (1 / 2.2) - 0.3 for candidate in candidates]
+    features = layers(np.concatenate(seen, 2), 4, model, block + ".encoder", 2, "zeros").mean((0, 1))
+    features = features + model[block + ".project.weight"] @ fused + model[block + ".project.bias"]
+    logits = model[block + ".head.weight"] @ features + model[block + ".head.bias"]
+    return np.exp(logits - logits.max()) / np.exp(logits - logits.max()).sum()
+
+
+def inverse_gain(image, gains):
+    scale = 1 / gains
+    mask = np.clip((image.mean(2, keepdims=True) - 0.9) / 0.1, 0, 1) ** 2
+    return image * np.maximum(mask + (1 - mask) * scale, scale)
+
+
+def gains(model, golden, photo, base):
+    """White-balance and global gain, with the anchor's `base`: no white-balance gain is below 1."""
+    color = golden["parameters.color"].astype(np.float64)
+    image = photo + layers(photo, 4, golden, "parameters.tone_reverse", 1, "edge")
+    image = np.maximum(np.clip(image, 0, 1), 1e-8) ** float(golden["parameters.gamma"][0])
+    image = np.clip(image @ np.linalg.inv(color).T, 0, 1)
+    fused = golden["fused_features"].reshape(-1)
+
+    def at_least_one(pair):
+        balance = np.array([pair[0] * base[0] / base[1], 1, pair[1] * base[2] / base[1]])
+        return balance / balance.min()
+
+    atoms = model["dictionary.white_balance"].astype(np.float64)
+    outputs = [inverse_gain(image, at_least_one(atom)) for atom in atoms]
+    balance = at_least_one(block_weights(model, "white_balance", fused, outputs) @ atoms)
+    image = inverse_gain(image, balance)
+    candidates = model["dictionary.gain"] * base[1] / balance[1]
+    outputs = [inverse_gain(image, np.full(3, gain)) for gain in candidates]
+    return balance, block_weights(model, "gain", fused, outputs) @ candidates
+
+
+golden, model = (load(f"{sys.argv[1]}/{name}_spatial.safetensors") for name in ("values", "model"))
+photo = golden["thumb.source"].reshape(256, 256, 3).astype(np.float64)
+source = np.maximum(photo, 1e-8) ** 2.2
 reference = golden["thumb.reference"].reshape(256, 256, 3)
 statistics = [golden[name].reshape(-1) for name in ("source_statistics", "reference_statistics")]
 correction = made_up_network(np.concatenate([*statistics, quantile_features(source), quantile_features(reference)]))
-base = golden["base_gain"].reshape(-1).astype(np.float64)
+base = golden["base_gain"].reshape(-1).astype(np.float64) / np.exp(correction)
+white_balance, gain = gains(model, golden, photo, base)
 json.dump(
     {
         "features_256x256": quantile_features(made_up_image(256, 256)).tolist(),
         "features_150x70": quantile_features(made_up_image(150, 70)).tolist(),
         "correction": correction.tolist(),
-        "base_gain": (base / np.exp(correction)).tolist(),
+        "base_gain": base.tolist(),
+        "white_balance": white_balance.tolist(),
+        "gain": [gain],
     },
     sys.stdout,
     indent=1,

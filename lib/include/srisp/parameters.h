@@ -20,7 +20,7 @@ struct Parameters {
     std::vector<float> gamma_weights, color_weights, white_balance_weights, gain_weights;
     float gamma = 1;                                         ///< exponent γ of the reverse pass, > 0
     std::array<float, 9> color{ 1, 0, 0, 0, 1, 0, 0, 0, 1 }; ///< C, row-major, camera RGB → linear sRGB
-    std::array<float, 3> white_balance{ 1, 1, 1 };           ///< forward multipliers (g_r, 1, g_b), > 0
+    std::array<float, 3> white_balance{ 1, 1, 1 };           ///< forward multipliers of R, G, B, > 0
     float gain = 1;                                          ///< forward multiplier g, > 0
     std::string model_name, model_hash;                      ///< Model::name and Model::hash
     std::string reference_name, reference_hash; ///< base name of the file and hash of its bytes; may be empty

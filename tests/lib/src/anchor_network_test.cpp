@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What model format srisp-3 adds, against an independent implementation: tests/golden/anchor_network.py.
+// What model format srisp-4 adds, against an independent implementation: tests/golden/anchor_network.py.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 
@@ -82,7 +84,7 @@ TEST_CASE("quantile features of one pixel, and of darkness")
     }
 }
 
-TEST_CASE("the anchor's network corrects the golden model's gains")
+TEST_CASE("the anchor's network corrects the golden model's gains, and no white-balance gain is below 1")
 {
     SKIP_WITHOUT_SHARED("golden/model_spatial.safetensors");
     const std::string path = shared_file("golden/model_spatial.safetensors");
@@ -91,7 +93,7 @@ TEST_CASE("the anchor's network corrects the golden model's gains")
     Expected<SafeTensors> golden = parse_safetensors(*bytes, path);
     REQUIRE(golden);
     ModelFile file{ golden->metadata, golden->tensors };
-    file.metadata["format"] = "srisp-3";
+    file.metadata["format"] = "srisp-4";
     const std::int64_t sizes[] = { 24 + 2 * kQuantileFeatures, 256, 256, 256, 3 };
     for (int l = 0; l < 4; ++l) {
         const std::string layer = "anchor_network." + std::to_string(l);
@@ -112,19 +114,22 @@ TEST_CASE("the anchor's network corrects the golden model's gains")
     source.rgb = values->tensors.at("thumb.source").values;
     reference.rgb = values->tensors.at("thumb.reference").values;
     SelectionTrace trace;
-    select_parameters(**model, source, reference, &trace);
+    const Parameters parameters = select_parameters(**model, source, reference, &trace);
     check_near(trace.base_gain, "base_gain");
+    check_near(parameters.white_balance, "white_balance");
+    check_near(std::array<float, 1>{ parameters.gain }, "gain");
+    CHECK(*std::min_element(parameters.white_balance.begin(), parameters.white_balance.end()) == 1);
 }
 
 TEST_CASE("a network without an anchor, or of another shape, is refused")
 {
     ModelFile file = random_model(3, 1);
-    file.metadata["format"] = "srisp-3";
+    file.metadata["format"] = "srisp-4";
     Expected<std::unique_ptr<ModelData>> model = parse_model(file.bytes(), "m");
     REQUIRE(!model);
     CHECK(model.error().message == "m: has no tensor 'anchor_network.0.weight'");
     file.metadata["anchor"] = "0";
     model = parse_model(file.bytes(), "m");
     REQUIRE(!model);
-    CHECK(model.error().message == "m: metadata 'format' is srisp-3 but 'anchor' is 0; its network needs the anchor");
+    CHECK(model.error().message == "m: metadata 'format' is srisp-4 but 'anchor' is 0; its network needs the anchor");
 }
