@@ -72,7 +72,7 @@ void fit_network(AnchorNetwork& network, const Rows& rows, const AnchorFit& line
     optimizer.rate = settings.rate;
     optimizer.weight_decay = settings.weight_decay;
     const torch::Tensor none = torch::zeros_like(parameters.values());
-    Adam adam(optimizer, parameters, none, none, parameters.mask_of(weights_of(network)));
+    Adam adam(optimizer, parameters, none, parameters.mask_of(weights_of(network)));
 
     at::Generator generator = at::detail::createCPUGenerator(seed);
     const double kept = 1 - settings.dropout;

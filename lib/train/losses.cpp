@@ -59,14 +59,20 @@ std::vector<LossTerm> loss_terms(const LossSettings& settings, const Compared& i
     if (images.processed.defined())
         add("forward", settings.forward, [&] { return mean_per_image((images.source - images.processed).abs()); });
     add("linear", settings.linear, [&] { return mean_per_image(error()); });
-    add("means", settings.means,
-        [&] { return cost_of_means(log_means(images.predicted) - log_means(images.truth), means_of(images.truth)); });
+    add("means", settings.means, [&] {
+        const torch::Tensor truth = log_means(images.truth);
+        torch::Tensor errors = log_means(images.predicted) - truth;
+        if (images.expected_means.defined())
+            errors = errors - (images.expected_means - truth).slice(1, 1, 2);
+        return cost_of_means(errors, means_of(images.truth));
+    });
     add("angle", settings.angle, [&] {
         const torch::Tensor difference = directions(images.truth) - directions(images.predicted);
         return mean_per_image((difference.square().sum(1) + 1e-8).sqrt());
     });
-    add("highlights", settings.highlights,
-        [&] { return masked_mean(error(), (images.truth > kHighlight).to(torch::kFloat)); });
+    add("highlights", settings.highlights, [&] {
+        return masked_mean((images.truth - matched).clamp_min(0), (images.truth > kHighlight).to(torch::kFloat));
+    });
     if (images.round_trip.defined()) {
         const auto change = [&images] { return (images.source - images.round_trip).abs(); };
         add("round_trip", settings.round_trip, [&] { return mean_per_image(change()); });

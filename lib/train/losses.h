@@ -27,10 +27,12 @@ struct LossSettings {
         v.number("reverse", reverse, 0, 1e3, "weight of |y^(1/gamma) - y'^(1/gamma)|, truth y, prediction y'");
         v.number("forward", forward, 0, 1e3, "weight of |x - f(y)|, photo x, forward pass f of the truth");
         v.number("linear", linear, 0, 1e3, "weight of |y - y'|");
-        v.number("means", means, 0, 1e3,
-                 "weight of the errors of image means: the logarithms of what they miss in brightness and in colour");
+        v.number(
+            "means", means, 0, 1e3,
+            "weight of the errors of image means, in colour and in brightness (where there is an anchor: from what "
+            "it says)");
         v.number("angle", angle, 0, 1e3, "weight of |y/|y| - y'/|y'||: about the angle between colours, in radians");
-        v.number("highlights", highlights, 0, 1e3, "weight of |y - y'| where the truth exceeds 0.8");
+        v.number("highlights", highlights, 0, 1e3, "weight of max(0, y - y') where the truth y exceeds 0.8");
         v.number("round_trip", round_trip, 0, 1e3, "weight of |x - f(y')|");
         v.number("white", white, 0, 1e3, "weight of |x - f(y')| where the photo is clipped white");
         v.flag("brightness_matched", brightness_matched,
@@ -44,9 +46,10 @@ struct LossSettings {
 };
 
 /// What a pass gave. Images [N, 3, H, W]; `processed` = f(truth) and `round_trip` = f(predicted) may be undefined where
-/// the method has no forward pass or no term needs them.
+/// the method has no forward pass or no term needs them. `expected_means` [N, 3]: the anchor's ln of the channel means;
+/// undefined where there is none.
 struct Compared {
-    torch::Tensor source, truth, predicted, processed, round_trip;
+    torch::Tensor source, truth, predicted, processed, round_trip, expected_means;
 };
 
 /// One term that is in use: its value [N] for each image, without its weight.

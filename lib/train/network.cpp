@@ -192,12 +192,14 @@ private:
         return line + m_network.m_anchor_network->forward(anchor_inputs(statistics, m_linear_source, m_reference));
     }
 
-    /// b_c = mean of the running image / predicted mean of the RAW [method 2, anchor]
+    /// b_c = mean of the running image / predicted mean of the RAW [method 2, anchor]. The anchor learns in its fit
+    /// alone: a batch says too little about brightness.
     void find_base()
     {
         m_choice.base = torch::ones({ m_images, 3 }, m_source.options());
         if (m_network.m_anchor) {
-            m_choice.base = m_running.mean({ 2, 3 }).clamp_min(1e-3) / torch::exp(log_means());
+            m_choice.expected_means = log_means().detach();
+            m_choice.base = m_running.mean({ 2, 3 }).clamp_min(1e-3) / torch::exp(m_choice.expected_means);
         }
         note("base_gain", m_choice.base);
     }

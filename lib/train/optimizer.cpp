@@ -32,12 +32,11 @@ double rate_factor(const OptimizerSettings& settings, std::int64_t step, std::in
 }
 
 Adam::Adam(const OptimizerSettings& settings, const ParameterVector& parameters, const torch::Tensor& dictionaries,
-           const torch::Tensor& anchor, const torch::Tensor& decayed)
+           const torch::Tensor& decayed)
     : first_moment(torch::zeros_like(parameters.values())), second_moment(torch::zeros_like(parameters.values())),
       m_settings(settings), m_values(parameters.values()), m_gradients(parameters.gradients()),
-      m_rates(dictionaries * (settings.dictionary_rate - settings.rate) +
-              anchor * (settings.anchor_rate - settings.rate) + settings.rate),
-      m_decays(decayed * (1 - dictionaries - anchor) * settings.rate * settings.weight_decay)
+      m_rates(dictionaries * (settings.dictionary_rate - settings.rate) + settings.rate),
+      m_decays(decayed * (1 - dictionaries) * settings.rate * settings.weight_decay)
 {
 }
 

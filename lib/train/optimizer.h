@@ -12,7 +12,6 @@ namespace srisp::train {
 struct OptimizerSettings {
     double rate = 1e-3;
     double dictionary_rate = 6e-3;
-    double anchor_rate = 1e-3;
     std::string schedule = "one_cycle";
     double warm_up = 0.1;
     double final_factor = 1e-3;
@@ -24,8 +23,6 @@ struct OptimizerSettings {
     {
         v.number("rate", rate, 0, 1, "learning rate of Adam at its highest");
         v.number("dictionary_rate", dictionary_rate, 0, 1, "the same for the dictionaries' atoms");
-        v.number("anchor_rate", anchor_rate, 0, 1,
-                 "the same for the anchor, which was fitted before; 0: it stays as it is");
         v.choice("schedule", schedule, { "one_cycle", "cosine", "step", "constant" },
                  "course of the rate; step: a tenth after 250/800 and 500/800 of the steps, as in the paper");
         v.number("warm_up", warm_up, 0, 0.9, "one_cycle: share of the steps in which the rate rises");
@@ -44,10 +41,10 @@ double rate_factor(const OptimizerSettings& settings, std::int64_t step, std::in
 /// norm.
 class Adam {
 public:
-    /// `dictionaries`, `anchor` [P]: 1 for elements that learn at these rates; `decayed` [P]: 1 for those of the others
-    /// that decay.
+    /// `dictionaries` [P]: 1 for elements that learn at their rate; `decayed` [P]: 1 for those of the others that
+    /// decay.
     Adam(const OptimizerSettings& settings, const ParameterVector& parameters, const torch::Tensor& dictionaries,
-         const torch::Tensor& anchor, const torch::Tensor& decayed);
+         const torch::Tensor& decayed);
 
     /// The norm of the gradient, before it is limited.
     double gradient_norm() const;

@@ -58,7 +58,7 @@ Trainer::Trainer(const TrainerSettings& settings, std::shared_ptr<Unprocessor> m
       m_samples(std::move(samples), m_slice, device.is_cuda()), m_student(std::move(model)), m_parameters(*m_student),
       m_teacher(make(), m_parameters.values()), m_averaged(make(), m_parameters.values()),
       m_adam(settings.optimizer, m_parameters, m_parameters.mask_of(m_student->dictionary_parameters()),
-             m_parameters.mask_of(m_student->anchor_parameters()), m_parameters.mask_of(weights_of(*m_student)))
+             m_parameters.mask_of(weights_of(*m_student)) * (1 - m_parameters.mask_of(m_student->anchor_parameters())))
 {
     m_student->train();
 }
@@ -96,7 +96,11 @@ void Trainer::add_teacher_pairs(Batch& batch)
 Trainer::Pass Trainer::learn(const Batch& batch)
 {
     Choice choice;
-    Compared images{ batch.source, batch.truth, m_student->reverse(batch.source, batch.reference, &choice), {}, {} };
+    Compared images;
+    images.source = batch.source;
+    images.truth = batch.truth;
+    images.predicted = m_student->reverse(batch.source, batch.reference, &choice);
+    images.expected_means = choice.expected_means;
     if (m_settings.loss.forward > 0) {
         torch::Tensor shown = batch.truth;
         if (m_settings.loss.brightness_matched) // the truth, as bright as the model takes it to be

@@ -18,7 +18,8 @@ struct Choice {
     std::map<std::string, torch::Tensor> weights; ///< selection weights [N, K] by dictionary: "tone.0" … "gain"
     /// The mixed tone kernels of the four layers, [N, O, I, k, k] and [N, O].
     std::vector<torch::Tensor> tone_reverse_weight, tone_reverse_bias, tone_forward_weight, tone_forward_bias;
-    torch::Tensor base; ///< [N, 3], the anchor's gains before the dictionaries
+    torch::Tensor expected_means; ///< [N, 3], ln of the RAW's channel means as the anchor has them; may be undefined
+    torch::Tensor base;           ///< [N, 3], the anchor's gains before the dictionaries
 };
 
 /// A method that unprocesses: SRISP, one of its ablations, a baseline. Images are [N, 3, H, W] float32: a source
@@ -39,7 +40,7 @@ public:
     /// Parameters that learn at the dictionaries' own rate; others learn at the common one.
     virtual std::vector<torch::Tensor> dictionary_parameters() = 0;
 
-    /// Parameters that were fitted before the first step, and may have a rate of their own.
+    /// Parameters that are fitted before the first step, and have no gradient in the passes.
     virtual std::vector<torch::Tensor> anchor_parameters() { return {}; }
 
     /// After every optimiser step: keeps parameters where they make sense (no gain below 1e-3, …).

@@ -68,7 +68,7 @@ public:
           m_teacher(make_unprocessor(settings.model, 1)), m_parameters(*m_student),
           m_average(m_parameters.values().clone()),
           m_adam({}, m_parameters, m_parameters.mask_of(m_student->dictionary_parameters()),
-                 m_parameters.mask_of(m_student->anchor_parameters()), torch::zeros_like(m_parameters.values()))
+                 torch::zeros_like(m_parameters.values()))
     {
     }
 

@@ -19,7 +19,7 @@ TEST_CASE("Adam on one vector is LibTorch's Adam, with a rate for dictionaries a
     settings.dictionary_rate = 0.05;
     settings.clip_norm = 0.5;
     const torch::Tensor none = torch::zeros_like(parameters.values());
-    Adam adam(settings, parameters, parameters.mask_of({ ours->bias }), none, none);
+    Adam adam(settings, parameters, parameters.mask_of({ ours->bias }), none);
     torch::optim::Adam reference(
         { torch::optim::OptimizerParamGroup({ theirs->weight },
                                             std::make_unique<torch::optim::AdamOptions>(settings.rate)),
@@ -48,8 +48,7 @@ TEST_CASE("weight decay shrinks matrices and leaves biases and dictionaries")
     OptimizerSettings settings;
     settings.rate = 0.1;
     settings.weight_decay = 0.5;
-    Adam adam(settings, parameters, parameters.mask_of({ layer->bias }), torch::zeros_like(parameters.values()),
-              torch::ones_like(parameters.values()));
+    Adam adam(settings, parameters, parameters.mask_of({ layer->bias }), torch::ones_like(parameters.values()));
     parameters.gradients().zero_();
     adam.update(0, 1, 0);
     CHECK(torch::allclose(layer->weight, weight * 0.95));
