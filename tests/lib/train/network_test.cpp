@@ -61,7 +61,7 @@ torch::Tensor loss_of(Unprocessor& model)
 
 } // namespace
 
-TEST_CASE("every ablation runs, stays within 0 and 1, and gives every parameter a gradient")
+TEST_CASE("every ablation runs, stays within 0 and 1, and gives every parameter but the anchor's a gradient")
 {
     for (const Variant& variant : variants()) {
         INFO(variant.name);
@@ -70,10 +70,13 @@ TEST_CASE("every ablation runs, stays within 0 and 1, and gives every parameter 
         for (const auto& item : network.named_parameters()) {
             INFO(item.key());
             const torch::Tensor gradient = item.value().grad();
-            REQUIRE(gradient.defined());
+            const bool fitted = item.key().find("anchor") == 0;
+            REQUIRE(gradient.defined() != fitted);
+            if (fitted)
+                continue;
             CHECK(torch::isfinite(gradient).all().item<bool>());
             // With one atom its weight is 1, whatever the selection says.
-            const bool selects = item.key().find("dictionary.") == std::string::npos && item.key().find("anchor") != 0;
+            const bool selects = item.key().find("dictionary.") == std::string::npos;
             if (variant.settings.dictionary_size > 1 || !selects)
                 CHECK(largest(gradient) > 0);
         }
