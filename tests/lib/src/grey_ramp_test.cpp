@@ -19,9 +19,9 @@ using namespace srisp;
 namespace {
 
 constexpr int kWidth = 1024, kHeight = 16;
-// Reverse: half a step of 8 bits, which nobody sees. Forward is what the models that ship reach (0.024; round trip
-// 0.080: clipped white takes the colour of gains below 1): lower these with better models.
-constexpr double kReverseFall = 0.5 / 255, kForwardFall = 0.03, kRoundTripFall = 0.09;
+// Half a step of 8 bits, which nobody sees. A round trip is what the models that ship reach (0.063: where the reference
+// is overexposed, channels clip that the way forward cannot bring back): lower it with better models.
+constexpr double kFall = 0.5 / 255, kRoundTripFall = 0.07;
 
 template<class T> T require(Expected<T> result)
 {
@@ -96,7 +96,7 @@ constexpr Light kLights[] = { { "as it is", { 1, 1, 1 } },    { "tungsten", { 1.
 
 } // namespace
 
-TEST_CASE("a grey ramp is monotonic in reverse, and nearly so forward, with the shipped models and under any light")
+TEST_CASE("a grey ramp is monotonic in reverse and forward, with the shipped models and under any light")
 {
     const Thumbnail photo = photo_thumbnail();
     const Thumbnail sample =
@@ -115,8 +115,8 @@ TEST_CASE("a grey ramp is monotonic in reverse, and nearly so forward, with the 
                 largest_fall(apply(*model, parameters, Direction::forward, ramp(camera_neutral(parameters))));
             INFO(name, ", light: ", std::string(light.name), ", largest fall in reverse ", reverse, ", forward ",
                  forward, ", of a round trip ", round_trip);
-            CHECK(reverse <= kReverseFall);
-            CHECK(forward <= kForwardFall);
+            CHECK(reverse <= kFall);
+            CHECK(forward <= kFall);
             CHECK(round_trip <= kRoundTripFall);
         }
 }
