@@ -54,11 +54,10 @@ std::vector<LossTerm> loss_terms(const LossSettings& settings, const Compared& i
     const torch::Tensor matched =
         settings.brightness_matched ? (images.predicted * brightness_ratio(images.truth, images.predicted)).clamp_max(1)
                                     : images.predicted;
-    const auto error = [&] { return (matched - images.truth).abs(); };
     add("reverse", settings.reverse, [&] { return mean_per_image((encode(images.truth) - encode(matched)).abs()); });
     if (images.processed.defined())
         add("forward", settings.forward, [&] { return mean_per_image((images.source - images.processed).abs()); });
-    add("linear", settings.linear, [&] { return mean_per_image(error()); });
+    add("linear", settings.linear, [&] { return mean_per_image((matched - images.truth).abs()); });
     add("means", settings.means, [&] {
         const torch::Tensor truth = log_means(images.truth);
         torch::Tensor errors = log_means(images.predicted) - truth;

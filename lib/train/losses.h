@@ -37,8 +37,7 @@ struct LossSettings {
         v.number("white", white, 0, 1e3, "weight of |x - f(y')| where the photo is clipped white");
         v.flag("brightness_matched", brightness_matched,
                "the terms reverse, linear, highlights and forward compare with the truth's mean of green: its error, "
-               "which no image "
-               "tells, would drown that of colour and tone; means is left to teach it");
+               "which no image tells, would drown that of colour and tone");
         v.number("gamma", gamma, 1, 4, "gamma under which RAW is compared in the term 'reverse'");
         v.number("floor", floor, 1e-8, 1e-2,
                  "RAW values are raised to this before the gamma, whose slope at 0 is infinite");
