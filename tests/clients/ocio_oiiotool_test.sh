@@ -23,8 +23,8 @@ check "or in a view" near p.tif back.tif 1e-3
 round_trip() {
     with "$here" oiiotool photo.jpg --ociolook "$unprocess" --iscolorspace Linear --ociolook "$process" \
         -o:datatype=float round.tif
-    # The pipeline's own error of the round trip, and no more than 1e-3 beside it.
-    near round.tif back.tif 1e-3
+    # The pipeline's own error of the round trip, and no more than that beside it.
+    near_but_for_black round.tif back.tif
 }
 check "process undoes unprocess as far as the library's does" round_trip
 oiiotool --pattern fill:left=0,0,0:right=1,1,1 1024x8 3 --attrib oiio:ColorSpace sRGB -d float -o ramp.tif
