@@ -46,7 +46,6 @@ struct ModelData {
     EncoderWeights source_encoder, reference_encoder;
     std::optional<Linear> source_statistics, reference_statistics, anchor;
     std::vector<Linear> anchor_network; ///< empty in srisp-1
-    bool white_stays_white = false;     ///< the least white-balance gain is 1; not in srisp-1, whose green one is
     Linear fuse;
     BlockSelector tone, gamma, color, white_balance, gain;
 
@@ -54,6 +53,9 @@ struct ModelData {
     std::vector<std::array<float, 2>> white_balance_atoms; ///< (g_r, g_b)
     std::vector<Matrix3> color_atoms;                      ///< C, rows normalised to sum to 1
     ToneDictionary tone_reverse, tone_forward;
+
+    /// Whether the least white-balance gain is 1; in srisp-1 the green one is.
+    bool white_stays_white() const { return !anchor_network.empty(); }
 };
 
 } // namespace srisp

@@ -242,7 +242,6 @@ Expected<std::unique_ptr<ModelData>> parse_model(const std::string& bytes, const
     }
     if (parts.anchor)
         model->anchor = tensors.take_linear("anchor", 3, 24);
-    model->white_stays_white = parts.anchor_network;
     if (parts.anchor_network)
         model->anchor_network = { tensors.take_linear("anchor_network.0", 256, 24 + 2 * kQuantileFeatures),
                                   tensors.take_linear("anchor_network.1", 256, 256),

@@ -241,7 +241,7 @@ private:
         };
         const auto product = [&](const std::array<float, 2>& atom) {
             const float r = atom[0] * red, b = atom[1] * blue;
-            const float one = m_model.white_stays_white ? std::min({ r, 1.0f, b }) : 1.0f;
+            const float one = m_model.white_stays_white() ? std::min({ r, 1.0f, b }) : 1.0f;
             return std::array<float, 3>{ r / one, 1 / one, b / one };
         };
         m_parameters.white_balance_weights = candidate_weights(m_model.white_balance, [&](int atom, Planes out) {

@@ -59,11 +59,11 @@ std::vector<LossTerm> loss_terms(const LossSettings& settings, const Compared& i
         add("forward", settings.forward, [&] { return mean_per_image((images.source - images.processed).abs()); });
     add("linear", settings.linear, [&] { return mean_per_image((matched - images.truth).abs()); });
     add("means", settings.means, [&] {
-        const torch::Tensor truth = log_means(images.truth);
-        torch::Tensor errors = log_means(images.predicted) - truth;
+        const torch::Tensor truth = means_of(images.truth), log_truth = truth.select(1, 0);
+        torch::Tensor errors = log_means(images.predicted) - log_truth;
         if (images.expected_means.defined())
-            errors = errors - (images.expected_means - truth).slice(1, 1, 2);
-        return cost_of_means(errors, means_of(images.truth));
+            errors = errors - (images.expected_means - log_truth).slice(1, 1, 2);
+        return cost_of_means(errors, truth);
     });
     add("angle", settings.angle, [&] {
         const torch::Tensor difference = directions(images.truth) - directions(images.predicted);

@@ -182,9 +182,11 @@ private:
         note("after_color", m_running);
     }
 
-    /// The means of the RAW that the anchor expects, [N, 3].
+    /// The means of the RAW that the anchor expects, [N, 3]. It learns in its fit alone: a batch says too little about
+    /// brightness.
     torch::Tensor log_means() const
     {
+        const torch::NoGradGuard no_gradient;
         const torch::Tensor statistics = torch::cat({ m_source_statistics, m_reference_statistics }, 1);
         const torch::Tensor line = m_network.m_anchor->affine(statistics);
         if (!m_network.m_anchor_network)
@@ -192,13 +194,12 @@ private:
         return line + m_network.m_anchor_network->forward(anchor_inputs(statistics, m_linear_source, m_reference));
     }
 
-    /// b_c = mean of the running image / predicted mean of the RAW [method 2, anchor]. The anchor learns in its fit
-    /// alone: a batch says too little about brightness.
+    /// b_c = mean of the running image / predicted mean of the RAW [method 2, anchor]
     void find_base()
     {
         m_choice.base = torch::ones({ m_images, 3 }, m_source.options());
         if (m_network.m_anchor) {
-            m_choice.expected_means = log_means().detach();
+            m_choice.expected_means = log_means();
             m_choice.base = m_running.mean({ 2, 3 }).clamp_min(1e-3) / torch::exp(m_choice.expected_means);
         }
         note("base_gain", m_choice.base);

@@ -63,9 +63,8 @@ def made_up_network(inputs):
 
 
 def convolve(image, weight, bias, stride, border):
-    """3 x 3, image [height, width, channels]."""
-    mode = "edge" if border == "edge" else "constant"
-    padded = np.pad(image, ((1, 1), (1, 1), (0, 0)), mode=mode)
+    """3 x 3, image [height, width, channels]; `border`: a mode of np.pad."""
+    padded = np.pad(image, ((1, 1), (1, 1), (0, 0)), mode=border)
     windows = np.lib.stride_tricks.sliding_window_view(padded, (3, 3), axis=(0, 1))[::stride, ::stride]
     return np.tensordot(windows, weight.astype(np.float64), axes=([2, 3, 4], [1, 2, 3])) + bias
 
@@ -82,7 +81,7 @@ def layers(image, count, tensors, name, stride, border):
 def block_weights(model, block, fused, candidates):
     """What a block chooses of its atoms, whose reverse outputs are given."""
     seen = [np.maximum(candidate, 1e-5) ** (1 / 2.2) - 0.3 for candidate in candidates]
-    features = layers(np.concatenate(seen, 2), 4, model, block + ".encoder", 2, "zeros").mean((0, 1))
+    features = layers(np.concatenate(seen, 2), 4, model, block + ".encoder", 2, "constant").mean((0, 1))
     features = features + model[block + ".project.weight"] @ fused + model[block + ".project.bias"]
     logits = model[block + ".head.weight"] @ features + model[block + ".head.bias"]
     return np.exp(logits - logits.max()) / np.exp(logits - logits.max()).sum()

@@ -128,17 +128,12 @@ TEST_CASE("a finished anchor is carried on: the line stays, the network learns f
     REQUIRE(first);
     const torch::Tensor line = network.anchor_parameters()[0].detach().clone();
     const Batch batch = pairs.batch(99, 0, 20, 0, 0);
-    const torch::NoGradGuard no_gradient;
     const torch::Tensor before = network.reverse(batch.source, batch.reference);
 
     settings.carry_on = true;
     settings.steps = 1;
     settings.rate = 0;
-    std::optional<AnchorFit> further;
-    {
-        const torch::AutoGradMode gradients(true);
-        further = start_anchor(network, pairs, settings, 5);
-    }
+    std::optional<AnchorFit> further = start_anchor(network, pairs, settings, 5);
     REQUIRE(further);
     CHECK(torch::equal(network.anchor_parameters()[0], line));
     CHECK(further->deviation == doctest::Approx(first->deviation).epsilon(1e-3));
@@ -146,10 +141,7 @@ TEST_CASE("a finished anchor is carried on: the line stays, the network learns f
 
     settings.steps = 800;
     settings.rate = 1e-3;
-    {
-        const torch::AutoGradMode gradients(true);
-        further = start_anchor(network, pairs, settings, 6);
-    }
+    further = start_anchor(network, pairs, settings, 6);
     CHECK(further->deviation < first->deviation);
     CHECK(torch::equal(network.anchor_parameters()[0], line));
 }
