@@ -11,14 +11,18 @@ namespace {
 constexpr double kSmallestGain = 1e-2, kSmallestGamma = 0.3, kSmallestDeterminant = 0.05;
 
 /// The kernels of all atoms of one layer share half of their variance: mixed with about equal weights, kernels that
-/// share nothing would cancel, and signals vanish within the four layers.
-torch::Tensor kernels(int atoms, torch::IntArrayRef shape, double scale, InitialWeights& initial)
+/// share nothing would cancel, and signals vanish within the four layers. They start with their middle alone, each
+/// pixel by itself: what the neighbours are good for has to be learnt, instead of random weights to be unlearnt.
+torch::Tensor kernels(int atoms, std::int64_t outputs, std::int64_t inputs, int size, double scale,
+                      InitialWeights& initial)
 {
+    const std::int64_t shape[] = { outputs, inputs, 1, 1 };
     const torch::Tensor common = initial.he(shape);
     std::vector<torch::Tensor> all;
     for (int k = 0; k < atoms; ++k)
         all.push_back((common + initial.he(shape)) * (scale / std::sqrt(2.0)));
-    return torch::stack(all);
+    const int border = size / 2;
+    return torch::constant_pad_nd(torch::stack(all), { border, border, border, border });
 }
 
 } // namespace
@@ -42,9 +46,9 @@ void Dictionaries::add_tone_maps(int atoms, int kernel_size, InitialWeights& ini
     for (auto [name, layers] : { std::pair("tone_reverse", &tone_reverse), std::pair("tone_forward", &tone_forward) }) {
         const auto list = register_module(name, std::make_shared<torch::nn::Module>());
         for (int l = 0; l < 4; ++l) {
-            const auto layer = std::make_shared<Layer>(
-                kernels(atoms, { channels[l + 1], channels[l], kernel_size, kernel_size }, scales[l], initial),
-                std::vector<std::int64_t>{ atoms, channels[l + 1] });
+            const auto layer =
+                std::make_shared<Layer>(kernels(atoms, channels[l + 1], channels[l], kernel_size, scales[l], initial),
+                                        std::vector<std::int64_t>{ atoms, channels[l + 1] });
             layers->push_back(list->register_module(std::to_string(l), layer));
         }
     }
