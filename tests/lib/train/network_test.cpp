@@ -104,6 +104,22 @@ TEST_CASE("a network starts near the identity tone map and within the hull of it
     }
 }
 
+TEST_CASE("3x3 kernels start as the pointwise ones, with nothing around them, and learn their neighbours")
+{
+    ModelSettings settings;
+    settings.kernel_size = "1";
+    Network pointwise(settings, 3), spatial({}, 3);
+    loss_of(spatial).backward();
+    for (int l = 0; l < 4; ++l) {
+        CAPTURE(l);
+        const std::string name = "dictionary.tone_reverse." + std::to_string(l) + ".weight";
+        const torch::Tensor kernels = spatial.named_parameters()[name];
+        const torch::Tensor middle = pointwise.named_parameters()[name];
+        CHECK(torch::equal(kernels, torch::constant_pad_nd(middle, { 1, 1, 1, 1 })));
+        CHECK(largest(kernels.grad().select(-1, 0)) > 0);
+    }
+}
+
 TEST_CASE("reverse is the choice applied, and each image of a batch is treated by itself")
 {
     const torch::NoGradGuard no_gradient;
