@@ -15,7 +15,7 @@ namespace {
 constexpr int kBatch = 64, kStatistics = 12;
 constexpr double kSmallest = 1e-3;   // deviation of an input: some are the same in all images
 constexpr double kMakingPairs = 0.9; // part of the work
-constexpr double kDarkHighlights = 60;
+constexpr double kDarkHighlights = 80;
 
 /// What the anchor is fitted to, a row for each pair.
 struct Rows {

@@ -90,7 +90,7 @@ def evaluate(options, row, seed):
             return json.load(file)
     model = ["--baseline", row.replace(" ", "_")] if row in UNTRAINED else [folder + "/best.safetensors"]
     output = subprocess.run([options.bin + "/srispeval", "--pack", options.pack, *model, "--json", "-q", "--threads",
-                             "1", "--set", "unpaired_photos=60"],
+                             "1", "--set", "unpaired_photos=20"],
                             check=True, stdout=subprocess.PIPE).stdout
     scores = json.loads(output)[0]["scores"]
     os.makedirs(folder, exist_ok=True)
