@@ -15,7 +15,6 @@ namespace {
 constexpr int kBatch = 64, kStatistics = 12;
 constexpr double kSmallest = 1e-3;   // deviation of an input: some are the same in all images
 constexpr double kMakingPairs = 0.9; // part of the work
-constexpr double kDarkHighlights = 80;
 
 /// What the anchor is fitted to, a row for each pair.
 struct Rows {
@@ -85,9 +84,7 @@ void fit_network(AnchorNetwork& network, const Rows& rows, const AnchorFit& line
             torch::randint(inputs.size(0), { settings.batch }, generator, torch::kLong).to(device);
         parameters.gradients().zero_();
         const torch::Tensor correction = network.forward(inputs.index_select(0, chosen), dropped);
-        const torch::Tensor errors = correction - missed.index_select(0, chosen);
-        const torch::Tensor truth = means.index_select(0, chosen);
-        (cost_of_means(errors, truth) + kDarkHighlights * lost_highlights(errors, truth)).mean().backward();
+        cost_of_means(correction - missed.index_select(0, chosen), means.index_select(0, chosen)).mean().backward();
         adam.update(step, rate_factor(optimizer, step, settings.steps), adam.gradient_norm());
         progress(static_cast<double>(step + 1) / settings.steps);
     }

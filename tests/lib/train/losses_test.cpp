@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "losses.h"
 
-#include "image_means.h"
-
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -78,6 +76,12 @@ TEST_CASE("terms for brightness, highlights, round trip and white")
     CHECK(only(settings, { grey(0.5), grey(0.2), reddish, {}, {}, expected }) ==
           doctest::Approx(std::log(1 + 1 / 3.0 / 0.04) + std::log(1 + std::pow(std::log(2), 2) / 0.01)).epsilon(1e-5));
 
+    // Highlights that come out half as bright are missed, and cost extra; too bright ones cost no more than others.
+    CHECK(only(settings, { grey(0.5), grey(0.9), grey(0.45), {}, {}, {} }) ==
+          doctest::Approx(std::log(1 + 0.25 / 0.04) + 60 * 0.45).epsilon(1e-5));
+    CHECK(only(settings, { grey(0.5), grey(0.9), grey(1.8), {}, {}, {} }) ==
+          doctest::Approx(std::log(1 + 1 / 0.04)).epsilon(1e-5));
+
     settings = nothing();
     settings.angle = 1;
     CHECK(only(settings, { grey(0.5), grey(0.2), grey(0.4), {}, {}, {} }) == doctest::Approx(0).epsilon(1e-3));
@@ -110,16 +114,6 @@ TEST_CASE("terms for brightness, highlights, round trip and white")
     CHECK(only(settings, { photo, grey(0.2), grey(0.4), {}, grey(0.7), {} }) == doctest::Approx(0.3).epsilon(1e-5));
     photo[0][0].slice(0, 0, 1).fill_(0.5); // red is not clipped: not white
     CHECK(only(settings, { photo, grey(0.2), grey(0.4), {}, grey(0.7), {} }) == 0);
-}
-
-TEST_CASE("highlights are lost on the dark side only")
-{
-    const auto lost = [](double truth, double error) {
-        return lost_highlights(torch::full({ 1, 3 }, error), means_of(grey(truth))).item<double>();
-    };
-    CHECK(lost(0.9, std::log(0.5)) == doctest::Approx(0.45).epsilon(1e-5));
-    CHECK(lost(0.9, std::log(2)) == 0);
-    CHECK(lost(0.7, std::log(0.5)) == 0); // no highlight
 }
 
 TEST_CASE("every term gives one value per image")
