@@ -10,7 +10,9 @@ add_custom_target(srisp_commit BYPRODUCTS ${CMAKE_CURRENT_BINARY_DIR}/srisp_comm
     COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR} -DOUTPUT=${CMAKE_CURRENT_BINARY_DIR}/srisp_commit.h
         -P ${CMAKE_CURRENT_SOURCE_DIR}/srisptrain/commit.cmake VERBATIM)
 add_executable(srisptrain
+    srisptrain/anchor_start.cpp
     srisptrain/host.cpp
+    srisptrain/kept_pairs.cpp
     srisptrain/main.cpp
     srisptrain/model_metadata.cpp
     srisptrain/options.cpp

@@ -12,20 +12,13 @@ namespace srisp::train {
 
 namespace {
 
-constexpr int kBatch = 64, kStatistics = 12;
-constexpr double kSmallest = 1e-3;   // deviation of an input: some are the same in all images
-constexpr double kMakingPairs = 0.9; // part of the work
+constexpr int kStatistics = 12;
+constexpr double kSmallest = 1e-3; // deviation of an input: some are the same in all images
 
-/// What the anchor is fitted to, a row for each pair.
+/// Some of the pairs.
 struct Rows {
-    torch::Tensor inputs; ///< [n, 166]; [n, 24] without a network
-    torch::Tensor means;  ///< of the RAW, [n, 3, 3], as `means_of` returns them
-
+    torch::Tensor inputs, means; ///< as in AnchorPairs
     torch::Tensor log_means() const { return means.select(1, 0); }
-    Rows slice(std::int64_t begin, std::int64_t end) const
-    {
-        return { inputs.slice(0, begin, end), means.slice(0, begin, end) };
-    }
 };
 
 double root_mean_square(const torch::Tensor& errors)
@@ -36,22 +29,6 @@ double root_mean_square(const torch::Tensor& errors)
 torch::Tensor line_of(const AnchorFit& fit, const torch::Tensor& inputs)
 {
     return torch::addmm(fit.bias, inputs.slice(1, 0, kAnchorStatistics), fit.weight.t());
-}
-
-Rows collect(Samples& samples, int pairs, bool with_quantiles, const std::function<void(double)>& progress)
-{
-    std::vector<torch::Tensor> inputs, means;
-    for (int done = 0, step = 0; done < pairs; ++step) {
-        const int count = std::min(kBatch, pairs - done);
-        const Batch batch = samples.batch(step, 0, count, 0, 0);
-        const torch::Tensor source = linear_source(batch.source);
-        const torch::Tensor statistics = torch::cat({ image_statistics(source), image_statistics(batch.reference) }, 1);
-        inputs.push_back((with_quantiles ? anchor_inputs(statistics, source, batch.reference) : statistics).cpu());
-        means.push_back(means_of(batch.truth).cpu());
-        done += count;
-        progress(static_cast<double>(done) / pairs);
-    }
-    return { torch::cat(inputs), torch::cat(means) };
 }
 
 /// Adam on what the line misses.
@@ -86,7 +63,8 @@ void fit_network(AnchorNetwork& network, const Rows& rows, const AnchorFit& line
         const torch::Tensor correction = network.forward(inputs.index_select(0, chosen), dropped);
         cost_of_means(correction - missed.index_select(0, chosen), means.index_select(0, chosen)).mean().backward();
         adam.update(step, rate_factor(optimizer, step, settings.steps), adam.gradient_norm());
-        progress(static_cast<double>(step + 1) / settings.steps);
+        if (progress)
+            progress(static_cast<double>(step + 1) / settings.steps);
     }
     network.take_plain_inputs(mean, deviation);
 }
@@ -123,27 +101,24 @@ Status take_anchor(Unprocessor& model, Unprocessor& other)
     return {};
 }
 
-std::optional<AnchorFit> start_anchor(Unprocessor& model, Samples& samples, const AnchorFitSettings& settings,
-                                      std::uint64_t seed, const std::function<void(double)>& progress)
+std::optional<AnchorPairs> pairs_for_anchor(Unprocessor& model, const AnchorFitSettings& settings)
 {
     auto* const network = dynamic_cast<Network*>(&model);
-    if (!network || !network->has_anchor())
+    if (!network || !network->has_anchor() || (settings.carry_on && !network->anchor_network()))
         return {};
-    AnchorNetwork* const correction = network->anchor_network();
-    if (settings.carry_on && !correction)
-        return {};
-    const auto report = [&](double from, double to, double part) {
-        if (progress)
-            progress(from + (to - from) * part);
+    return AnchorPairs(settings.pairs, network->anchor_network() != nullptr);
+}
+
+AnchorFit fit_anchor(Unprocessor& model, const AnchorPairs& pairs, const AnchorFitSettings& settings,
+                     std::uint64_t seed, const std::function<void(double)>& progress)
+{
+    auto& network = dynamic_cast<Network&>(model);
+    AnchorNetwork* const correction = network.anchor_network();
+    const std::int64_t count = pairs.made(), fitted = count - count / 10;
+    const auto slice = [&pairs](std::int64_t begin, std::int64_t end) -> Rows {
+        return { pairs.inputs().slice(0, begin, end), pairs.means().slice(0, begin, end) };
     };
-    Rows all;
-    {
-        const torch::NoGradGuard no_gradient;
-        all = collect(samples, settings.pairs, correction != nullptr,
-                      [&](double part) { report(0, kMakingPairs, part); });
-    }
-    const std::int64_t fitted = settings.pairs - settings.pairs / 10;
-    const Rows rows = all.slice(0, fitted), tested = all.slice(fitted, settings.pairs);
+    const Rows rows = slice(0, fitted), tested = slice(fitted, count);
     AnchorFit fit;
     if (settings.carry_on) {
         const std::vector<torch::Tensor> anchor = model.anchor_parameters();
@@ -151,10 +126,10 @@ std::optional<AnchorFit> start_anchor(Unprocessor& model, Samples& samples, cons
         fit.bias = anchor[1].detach().cpu();
     } else {
         fit = fit_line(rows.inputs.slice(1, 0, kAnchorStatistics), rows.log_means(), settings.ridge);
-        network->set_anchor(fit.weight, fit.bias);
+        network.set_anchor(fit.weight, fit.bias);
     }
     if (correction)
-        fit_network(*correction, rows, fit, settings, seed, [&](double part) { report(kMakingPairs, 1, part); });
+        fit_network(*correction, rows, fit, settings, seed, progress);
 
     const torch::NoGradGuard no_gradient;
     const torch::Device model_device = model.parameters().front().device();

@@ -7,7 +7,7 @@
 
 #include <srisp/expected.h>
 
-#include "samples.h"
+#include "anchor_pairs.h"
 #include "unprocessor.h"
 
 namespace srisp::train {
@@ -55,10 +55,13 @@ AnchorFit fit_line(const torch::Tensor& statistics, const torch::Tensor& log_mea
 /// Gives `model` the anchor of another, of whatever kernel size. An error where either has none or theirs differ.
 Status take_anchor(Unprocessor& model, Unprocessor& other);
 
-/// Fits the model's anchor to pseudo pairs of the first steps; nothing where the model has none. To carry on: the line
-/// stays, the network learns from where it is; nothing where there is none. `progress` gets the part that is done,
-/// 0 … 1. `seed`: of the network's batches.
-std::optional<AnchorFit> start_anchor(Unprocessor& model, Samples& samples, const AnchorFitSettings& settings,
-                                      std::uint64_t seed, const std::function<void(double)>& progress = {});
+/// The pairs that a fit of the model's anchor takes, none made so far; nothing where it has no anchor, or none that
+/// could be carried on where the settings want that.
+std::optional<AnchorPairs> pairs_for_anchor(Unprocessor& model, const AnchorFitSettings& settings);
+
+/// Fits the model's anchor to `pairs`: those of `pairs_for_anchor`, complete. To carry on: the line stays, the network
+/// learns from where it is. `progress` gets the part that is done, 0 … 1. `seed`: of the network's batches.
+AnchorFit fit_anchor(Unprocessor& model, const AnchorPairs& pairs, const AnchorFitSettings& settings,
+                     std::uint64_t seed, const std::function<void(double)>& progress = {});
 
 } // namespace srisp::train

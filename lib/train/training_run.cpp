@@ -34,7 +34,8 @@ Status TrainingRun::resume(const TrainingState& state)
     m_best_step = number("best_step", -1);
     m_smoothed_loss = number("smoothed_loss", -1);
     m_lowest_loss = number("lowest_loss", -1);
-    return m_log.resume_after(m_trainer.steps_done());
+    // A validation before the first step comes after that step's checkpoint.
+    return m_log.resume_after(m_trainer.steps_done() > 0 ? m_trainer.steps_done() : -1);
 }
 
 double TrainingRun::seconds() const
@@ -70,7 +71,7 @@ Expected<RunEnd> TrainingRun::go(const std::function<bool()>& stop)
             validate_now();
         if (m_group.writes()) {
             report(step);
-            checkpoint(When::at_interval);
+            save_checkpoint_in_time();
         }
         if (step.stop && !m_trainer.finished())
             return end(RunEnd::stopped);
@@ -161,15 +162,18 @@ void TrainingRun::validate(const std::function<void()>& still_there)
     m_best_step = static_cast<double>(step);
 }
 
-void TrainingRun::checkpoint(When when)
+void TrainingRun::save_checkpoint_in_time()
 {
     const double since = std::chrono::duration<double>(Clock::now() - m_last_checkpoint).count();
     const double interval = m_settings.checkpoint_minutes * 60;
-    if (when == When::at_interval &&
-        since < (m_checkpoint_error.empty() ? interval : std::min(interval, kRetrySeconds)))
-        return;
+    if (since >= (m_checkpoint_error.empty() ? interval : std::min(interval, kRetrySeconds)))
+        save_checkpoint();
+}
+
+bool TrainingRun::save_checkpoint()
+{
     if (!m_trainer.sound())
-        return; // the one that is there is better
+        return false; // the one that is there is better
     TrainingState state = m_trainer.state();
     state.texts = m_origin;
     state.numbers["seconds"] = seconds();
@@ -177,7 +181,7 @@ void TrainingRun::checkpoint(When when)
     state.numbers["best_step"] = m_best_step;
     state.numbers["smoothed_loss"] = m_smoothed_loss;
     state.numbers["lowest_loss"] = m_lowest_loss;
-    const Status status = save_checkpoint(state, m_folder + "/" + kCheckpointFile);
+    const Status status = train::save_checkpoint(state, m_folder + "/" + kCheckpointFile);
     if (!status && m_checkpoint_error.empty())
         m_host.note("warning: no checkpoint: " + status.error().message +
                     "; the one before stays; trying again while training goes on");
@@ -185,6 +189,7 @@ void TrainingRun::checkpoint(When when)
         m_host.note("checkpoints can be written again");
     m_checkpoint_error = status.error().message;
     m_last_checkpoint = Clock::now();
+    return m_checkpoint_error.empty();
 }
 
 Expected<RunEnd> TrainingRun::end_badly(const std::string& reason)
@@ -194,7 +199,7 @@ Expected<RunEnd> TrainingRun::end_badly(const std::string& reason)
     m_host.note(reason + "; training has stopped");
     const bool healthy = m_smoothed_loss <= m_settings.divergence * m_lowest_loss;
     if (healthy)
-        checkpoint(When::now);
+        save_checkpoint();
     std::string kept = m_folder + "/" + kCheckpointFile + (healthy ? " holds the state before it" : " is from before");
     if (m_best_step >= 0)
         kept += ", " + m_folder + "/" + kBestFile + " the best model, of step " +
@@ -208,7 +213,7 @@ Expected<RunEnd> TrainingRun::end(RunEnd how)
 {
     if (!m_group.writes())
         return how;
-    checkpoint(When::now);
+    save_checkpoint();
     if (!m_checkpoint_error.empty())
         return Error{ "the last checkpoint could not be written: " + m_checkpoint_error };
     if (how == RunEnd::finished && !m_best_error.empty())

@@ -81,19 +81,21 @@ public:
     /// Goes on from a checkpoint of the same recipe. Call it on rank 0 only, before `go`.
     Status resume(const TrainingState& state);
 
+    /// Writes a checkpoint; whether it could be written. Call it on rank 0 only.
+    bool save_checkpoint();
+
     /// Trains until the end, until `stop` says so (a checkpoint is written then), or until the loss is no number or
     /// explodes. Errors: the last checkpoint or model could not be written.
     Expected<RunEnd> go(const std::function<bool()>& stop);
 
 private:
     using Clock = std::chrono::steady_clock;
-    enum class When { at_interval, now };
 
     bool diverges(double loss);
     void add_up(const StepReport& report);
     void report(const StepReport& step);
     void validate(const std::function<void()>& still_there);
-    void checkpoint(When when);
+    void save_checkpoint_in_time();
     double seconds() const;
     void log(const nlohmann::ordered_json& entry);
     Expected<RunEnd> end_badly(const std::string& reason);

@@ -67,6 +67,36 @@ killed() {
     cmp whole/best.safetensors killed/best.safetensors
 }
 check "kill -9 loses no more than what came after the checkpoint" killed
+# wait_for COMMAND…: until it succeeds.
+wait_for() {
+    for _ in $(seq 600); do
+        "$@" 2>/dev/null && return 0
+        sleep 0.05
+    done
+    echo "never: $*"
+    return 1
+}
+stopped_in_the_anchor() {
+    set -- tiny.json --threads 1 --steps 2 --set anchor_fit.pairs=1280
+    "$train" "$@" -o fit_whole || return 1
+    start "$train" "$@" -o fit_parts --set checkpoint_minutes=0
+    pid=$!
+    wait_for test -e fit_parts/anchor_pairs.safetensors || return 1
+    kill -KILL $pid
+    wait $pid
+    start "$train" "$@" -o fit_parts 2>notes.txt
+    pid=$!
+    wait_for grep -q "going on from [0-9]* of 1280 pairs for the anchor" notes.txt || return 1
+    kill -INT $pid
+    wait $pid
+    code=$?
+    [ $code -eq 130 ] && grep -q "stopped with [0-9]* of 1280 pairs" notes.txt || { echo "exit code $code"; cat notes.txt; return 1; }
+    says 1 "'fit_parts/anchor_pairs.safetensors' is of another training: anchor_fit.pairs is 1280 there, 64 here" \
+        "$train" tiny.json --threads 1 --steps 2 --set anchor_fit.pairs=64 -o fit_parts || return 1
+    says 0 "of 1280 pairs for the anchor" "$train" "$@" -o fit_parts && [ ! -e fit_parts/anchor_pairs.safetensors ] &&
+        cmp fit_whole/best.safetensors fit_parts/best.safetensors
+}
+check "the fit of the anchor, too, is gone on from after kill -9 and Ctrl-C" stopped_in_the_anchor
 check "a finished training has nothing to do" says 0 "going on from step 8" "$train" tiny.json -o whole --threads 1
 
 check "a checkpoint of another recipe is not gone on from" says 1 \
@@ -199,11 +229,12 @@ check "a process that does not answer ends the other one" one_silent
 check "a rank without an address" says 2 "need the address host:port of rank 0" "$train" tiny.json --nodes 2 --rank 0
 
 mkdir full
-if mount -t tmpfs -o size=40m tmpfs full 2>/dev/null; then
+if mount -t tmpfs -o size=80m tmpfs full 2>/dev/null; then
     trap 'cd /; umount "$scratch/full"; rm -rf "$scratch"' EXIT
-    # Room for one checkpoint (24 MB), not for the next one beside it.
     full_disk() {
         says 0 "" "$train" tiny.json -o full/run --threads 1 --steps 2 || return 1
+        # Room for that checkpoint (24 MB), not for the next one beside it.
+        head -c 40000000 /dev/zero >full/other
         says 1 "the last checkpoint could not be written" "$train" tiny.json -o full/run --threads 1 --steps 2 \
             --set checkpoint_minutes=0 || return 1
         "$train" tiny.json -o full/run --threads 1 --steps 2 --dry-run | grep -q "goes on from step 2" &&

@@ -14,8 +14,8 @@ std::string duration_text(double seconds);
 /// on a terminal and wiped at the end, elsewhere a line every half minute.
 class ProgressMeter {
 public:
-    /// `title`: begins the line; `unit`: what is counted, plural.
-    ProgressMeter(std::string title, std::string unit, std::int64_t total, bool enabled);
+    /// `title`: begins the line; `unit`: what is counted, plural; `before`: done by an earlier run, which took no time.
+    ProgressMeter(std::string title, std::string unit, std::int64_t total, bool enabled, std::int64_t before = 0);
     ~ProgressMeter() { wipe(); }
     ProgressMeter(const ProgressMeter&) = delete;
     ProgressMeter& operator=(const ProgressMeter&) = delete;
@@ -28,7 +28,7 @@ private:
     using Clock = std::chrono::steady_clock;
 
     std::string m_title, m_unit;
-    std::int64_t m_total;
+    std::int64_t m_total, m_before;
     bool m_enabled, m_terminal, m_shown = false;
     Clock::time_point m_start, m_last;
 };

@@ -35,12 +35,16 @@ OutputFolder::~OutputFolder()
 
 void OutputFolder::clear()
 {
-    for (const char* name : { kCheckpointFile, kBestFile, kRecipeFile, kCsvLog, kJsonLog }) {
-        std::error_code error;
-        fs::remove(file(name), error);
-        if (error)
-            fail("cannot remove '" + file(name) + "': " + error.message());
-    }
+    for (const char* name : { kCheckpointFile, kBestFile, kRecipeFile, kCsvLog, kJsonLog })
+        remove(name);
+}
+
+void OutputFolder::remove(const std::string& name)
+{
+    std::error_code error;
+    fs::remove(file(name), error);
+    if (error)
+        fail("cannot remove '" + file(name) + "': " + error.message());
 }
 
 std::map<std::string, std::string> origin_of(const Recipe& recipe, const std::string& pack_hash)
@@ -48,10 +52,9 @@ std::map<std::string, std::string> origin_of(const Recipe& recipe, const std::st
     return { { "recipe", recipe_text(recipe) }, { "pack", pack_hash } };
 }
 
-std::optional<TrainingState> find_checkpoint(const std::string& folder, const Recipe& recipe,
+std::optional<TrainingState> find_checkpoint(const std::string& path, const Recipe& recipe,
                                              const std::string& pack_hash)
 {
-    const std::string path = folder + "/" + kCheckpointFile;
     std::error_code error;
     if (!fs::exists(path, error))
         return {};

@@ -21,6 +21,8 @@ public:
     std::string file(const std::string& name) const { return m_path + "/" + name; }
     /// Removes what an earlier training left.
     void clear();
+    /// Removes a file where it is there.
+    void remove(const std::string& name);
 
 private:
     std::string m_path;
@@ -30,9 +32,9 @@ private:
 /// What checkpoints keep of a training's origin.
 std::map<std::string, std::string> origin_of(const train::Recipe& recipe, const std::string& pack_hash);
 
-/// The checkpoint to go on from: none where the folder has none. Fails where it belongs to another recipe or pack, and
-/// says in what they differ.
-std::optional<train::TrainingState> find_checkpoint(const std::string& folder, const train::Recipe& recipe,
+/// The checkpoint to go on from: none where the file is not there. Fails where it belongs to another recipe or pack,
+/// and says in what they differ.
+std::optional<train::TrainingState> find_checkpoint(const std::string& path, const train::Recipe& recipe,
                                                     const std::string& pack_hash);
 
 } // namespace srisp

@@ -8,8 +8,7 @@
 #include <ATen/Parallel.h>
 
 #include "../common/progress_meter.h"
-#include "anchor_fit.h"
-#include "host.h"
+#include "anchor_start.h"
 #include "output_folder.h"
 #include "train.h"
 
@@ -55,7 +54,9 @@ void print_inputs(const Session& session)
 bool print_output(const Session& session, const Options& options)
 {
     const Recipe& recipe = session.settings();
-    const auto state = options.restart ? std::nullopt : find_checkpoint(recipe.output, recipe, session.pack->hash());
+    const auto state = options.restart
+                           ? std::nullopt
+                           : find_checkpoint(recipe.output + "/" + kCheckpointFile, recipe, session.pack->hash());
     std::printf("output      %s: %s\n", recipe.output.c_str(),
                 state
                     ? ("goes on from step " + std::to_string(static_cast<long long>(state->numbers.at("step")))).c_str()
@@ -67,20 +68,20 @@ bool print_output(const Session& session, const Options& options)
 double anchor_seconds(Session& session)
 {
     const Recipe& recipe = session.settings();
-    if ((!recipe.init.empty() && !carries_anchor_on(recipe)) || !recipe.anchor_fit.from.empty())
+    std::optional<AnchorFitSettings> few = anchor_fit_of(recipe);
+    if (!few)
         return 0;
-    AnchorFitSettings few = recipe.anchor_fit;
-    few.carry_on = carries_anchor_on(recipe);
-    few.pairs = std::min(few.pairs, kAnchorPairs);
-    bool fitted = false;
-    const auto fit_seconds = [&](int steps) {
-        few.steps = steps;
-        return seconds_of([&] {
-            fitted = start_anchor(*session.model, *session.samples, few, std::uint64_t(recipe.seed)).has_value();
-        });
-    };
-    const double pairs = fit_seconds(1), steps = std::max(fit_seconds(1 + kAnchorSteps) - pairs, 0.0);
-    return fitted ? pairs * recipe.anchor_fit.pairs / few.pairs + steps * recipe.anchor_fit.steps / kAnchorSteps : 0;
+    few->pairs = std::min(few->pairs, kAnchorPairs);
+    few->steps = kAnchorSteps;
+    std::optional<AnchorPairs> pairs = pairs_for_anchor(*session.model, *few);
+    if (!pairs)
+        return 0;
+    const double making = seconds_of([&] {
+        while (!pairs->complete())
+            pairs->make_more(*session.samples);
+    });
+    const double fitting = seconds_of([&] { fit_anchor(*session.model, *pairs, *few, std::uint64_t(recipe.seed)); });
+    return making * recipe.anchor_fit.pairs / few->pairs + fitting * recipe.anchor_fit.steps / few->steps;
 }
 
 /// MB that this process had at most so far.

@@ -6,7 +6,6 @@
 #include <torch/cuda.h>
 
 #include "../common/failure.h"
-#include "../common/progress_meter.h"
 #include "../common/require.h"
 #include "model_file.h"
 #include "model_files.h"
@@ -123,32 +122,6 @@ Session open_session(const Options& options)
     session.group = std::make_unique<ProcessGroup>(membership);
     session.group->check_same(recipe_text(recipe) + session.pack->hash(), "recipe and pack");
     return session;
-}
-
-bool carries_anchor_on(const Recipe& recipe)
-{
-    return recipe.anchor_fit.carry_on && !recipe.init.empty();
-}
-
-std::optional<AnchorFit> start_model(Session& session, bool quiet, const std::function<void()>& still_there)
-{
-    const Recipe& recipe = session.settings();
-    if (!recipe.init.empty() && !carries_anchor_on(recipe))
-        return {};
-    if (const std::string& name = recipe.anchor_fit.from; !name.empty()) {
-        const LoadedModel other = require(load_model(require(find_model_file(name))));
-        if (const Status status = take_anchor(*session.model, *other.model); !status)
-            fail("anchor_fit.from: model '" + name + "' " + status.error().message);
-        return {};
-    }
-    ProgressMeter meter("srisptrain: fitting the anchor", "%", 100, !quiet);
-    AnchorFitSettings settings = recipe.anchor_fit;
-    settings.carry_on = carries_anchor_on(recipe);
-    return start_anchor(*session.model, *session.samples, settings, static_cast<std::uint64_t>(recipe.seed),
-                        [&](double part) {
-                            meter.show(static_cast<std::int64_t>(part * 100));
-                            still_there();
-                        });
 }
 
 } // namespace srisp

@@ -35,11 +35,4 @@ train::LoadedRecipe recipe_of(const Options& options);
 /// Opens everything; fails with a message about what is wrong.
 Session open_session(const Options& options);
 
-/// Whether the run starts from a finished model and fits its anchor further. A new model has nothing to carry on.
-bool carries_anchor_on(const train::Recipe& recipe);
-
-/// The fit of a new model's anchor, or further fit of a finished one's, if the recipe says so; nothing where there is
-/// none. Calls `still_there` now and then.
-std::optional<train::AnchorFit> start_model(Session& session, bool quiet, const std::function<void()>& still_there);
-
 } // namespace srisp

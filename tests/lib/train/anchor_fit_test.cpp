@@ -16,6 +16,18 @@ double largest(const torch::Tensor& tensor)
     return tensor.abs().max().item<double>();
 }
 
+/// All of a fit: nothing where there is none.
+std::optional<AnchorFit> start_anchor(Unprocessor& model, Samples& samples, const AnchorFitSettings& settings,
+                                      std::uint64_t seed, const std::function<void(double)>& progress = {})
+{
+    std::optional<AnchorPairs> pairs = pairs_for_anchor(model, settings);
+    if (!pairs)
+        return {};
+    while (!pairs->complete())
+        pairs->make_more(samples);
+    return fit_anchor(model, *pairs, settings, seed, progress);
+}
+
 /// Pairs whose RAW is the linear photo, as bright as the reference says: three times as bright.
 class SimplePairs : public Samples {
 public:
@@ -86,6 +98,32 @@ public:
         return batch;
     }
 };
+
+TEST_CASE("pairs that an earlier run made are gone on from, to the bit")
+{
+    SimplePairs samples;
+    AnchorPairs whole(150, true), first(150, true), rest(150, true);
+    while (!whole.complete())
+        whole.make_more(samples);
+    CHECK(whole.made() == 150);
+    first.make_more(samples);
+    REQUIRE(first.made() < 150);
+    REQUIRE(rest.take(first.inputs(), first.means()));
+    CHECK(rest.made() == first.made());
+    while (!rest.complete())
+        rest.make_more(samples);
+    CHECK(torch::equal(rest.inputs(), whole.inputs()));
+    CHECK(torch::equal(rest.means(), whole.means()));
+    CHECK(rest.take(whole.inputs(), whole.means()));
+    CHECK(rest.complete());
+
+    AnchorPairs fewer(100, true), line(150, false);
+    CHECK_FALSE(fewer.take(whole.inputs(), whole.means()));
+    CHECK_FALSE(line.take(whole.inputs(), whole.means()));
+    CHECK_FALSE(fewer.take(whole.inputs().slice(0, 0, 10), whole.means().slice(0, 0, 10)));
+    CHECK_FALSE(fewer.take(whole.inputs().slice(0, 0, 64), whole.means().slice(0, 0, 63)));
+    CHECK(fewer.made() == 0);
+}
 
 TEST_CASE("the anchor's network learns what its line misses, the same from the same seed")
 {
