@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "image_means.h"
-#include "image_statistics.h"
 #include "network.h"
 #include "optimizer.h"
 

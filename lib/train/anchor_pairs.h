@@ -29,7 +29,6 @@ public:
 
 private:
     torch::Tensor m_inputs, m_means;
-    bool m_with_quantiles;
     int m_made = 0;
 };
 

@@ -16,15 +16,17 @@ RECIPE
 # steps FILE: the steps in a log, in order; losses FILE: step and loss.
 steps() { cut -d, -f1 "$1" | uniq | tr '\n' ' '; }
 losses() { awk -F, '$4 != "" && NR > 1 { print $1, $4 }' "$1"; }
-# wait_for_step FILE N: until the log has step N.
-wait_for_step() {
+# wait_for COMMAND…: until it succeeds.
+wait_for() {
     for _ in $(seq 600); do
-        [ -f "$1" ] && grep -q "^$2," "$1" && return 0
+        "$@" 2>/dev/null && return 0
         sleep 0.05
     done
-    echo "step $2 did not come"
+    echo "never: $*"
     return 1
 }
+# wait_for_step FILE N: until the log has step N.
+wait_for_step() { wait_for grep -q "^$2," "$1"; }
 # start COMMAND…: in the background, with signals as a terminal gives them; $! is the program itself.
 start() {
     # A shell ignores SIGINT for what it runs in the background: a program of its own resets that.
@@ -67,15 +69,6 @@ killed() {
     cmp whole/best.safetensors killed/best.safetensors
 }
 check "kill -9 loses no more than what came after the checkpoint" killed
-# wait_for COMMAND…: until it succeeds.
-wait_for() {
-    for _ in $(seq 600); do
-        "$@" 2>/dev/null && return 0
-        sleep 0.05
-    done
-    echo "never: $*"
-    return 1
-}
 stopped_in_the_anchor() {
     set -- tiny.json --threads 1 --steps 2 --set anchor_fit.pairs=1280
     "$train" "$@" -o fit_whole || return 1

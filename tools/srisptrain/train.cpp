@@ -20,19 +20,17 @@ void write_or_fail(const std::string& path, const std::string& text)
         fail(status.error().message);
 }
 
-/// Rank 0: where the training starts.
-void start(Session& session, TrainingRun& run, OutputFolder& folder, Host& host, bool restart)
+/// Rank 0: where the training starts; at step 0 without a `state`.
+void start(const Recipe& recipe, const std::optional<TrainingState>& state, TrainingRun& run, OutputFolder& folder,
+           Host& host)
 {
-    const Recipe& recipe = session.settings();
-    if (restart)
-        folder.clear();
     bool kept = true;
-    if (const auto state = find_checkpoint(folder.file(kCheckpointFile), recipe, session.pack->hash())) {
+    if (state) {
         if (const Status status = run.resume(*state); !status)
             fail("'" + folder.file(kCheckpointFile) + "' " + status.error().message);
         host.note("going on from step " + std::to_string(static_cast<std::int64_t>(state->numbers.at("step"))));
     } else {
-        folder.clear(); // of a log without a checkpoint
+        folder.clear(); // of what is not gone on from
         // The fit of the anchor may have taken long.
         kept = run.save_checkpoint();
     }
@@ -55,8 +53,11 @@ int train_model(Session& session, const Options& options)
             host.note("no validation: " + session.tests_missing + "; the last model is kept");
     }
     watch_interrupts();
+    std::optional<TrainingState> state;
     session.group->rank_0_alone([&](const std::function<void()>& still_there) {
-        if (options.restart || !find_checkpoint(folder->file(kCheckpointFile), recipe, session.pack->hash()))
+        if (!options.restart)
+            state = find_checkpoint(folder->file(kCheckpointFile), recipe, session.pack->hash());
+        if (!state)
             start_anchor(session, host, options.quiet, options.restart, still_there);
     });
     Trainer trainer(
@@ -67,7 +68,7 @@ int train_model(Session& session, const Options& options)
     TrainingRun run(trainer, *session.group, run_settings, recipe.trainer.steps,
                     origin_of(recipe, session.pack->hash()), recipe.output, host);
     if (writes)
-        start(session, run, *folder, host, options.restart);
+        start(recipe, state, run, *folder, host);
     const Expected<RunEnd> end = run.go([] { return pending_interrupt() != 0; });
     if (!end)
         fail(end.error().message);
