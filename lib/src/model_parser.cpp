@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "match_features.h"
 #include "near_names.h"
 #include "quantile_features.h"
 #include "safetensors.h"
@@ -202,7 +203,7 @@ struct Parts {
 Status read_settings(ModelData& model, const std::string& where, Parts& parts)
 {
     MetadataReader metadata(model.metadata, where);
-    parts.anchor_network = metadata.one_of("format", { "srisp-1", "srisp-4" }) == "srisp-4";
+    parts.anchor_network = metadata.one_of("format", { "srisp-1", "srisp-5" }) == "srisp-5";
     model.kernel_size = metadata.one_of("kernel_size", { "3", "1" }) == "1" ? 1 : 3;
     model.dictionary_size = metadata.count("dictionary_size", kMaxDictionarySize);
     model.perceptual_encoder_input = metadata.one_of("encoder_input", { "perceptual", "plain" }) == "perceptual";
@@ -215,7 +216,7 @@ Status read_settings(ModelData& model, const std::string& where, Parts& parts)
     if (parts.anchor && !parts.statistics)
         return Error{ where + ": metadata 'anchor' is 1 but 'statistics' is 0; the anchor needs the statistics" };
     if (parts.anchor_network && !parts.anchor)
-        return Error{ where + ": metadata 'format' is srisp-4 but 'anchor' is 0; its network needs the anchor" };
+        return Error{ where + ": metadata 'format' is srisp-5 but 'anchor' is 0; its network needs the anchor" };
     return {};
 }
 
@@ -243,10 +244,11 @@ Expected<std::unique_ptr<ModelData>> parse_model(const std::string& bytes, const
     if (parts.anchor)
         model->anchor = tensors.take_linear("anchor", 3, 24);
     if (parts.anchor_network)
-        model->anchor_network = { tensors.take_linear("anchor_network.0", 256, 24 + 2 * kQuantileFeatures),
-                                  tensors.take_linear("anchor_network.1", 256, 256),
-                                  tensors.take_linear("anchor_network.2", 256, 256),
-                                  tensors.take_linear("anchor_network.3", 3, 256) };
+        model->anchor_network = {
+            tensors.take_linear("anchor_network.0", 256, 24 + 2 * kQuantileFeatures + kMatchFeatures),
+            tensors.take_linear("anchor_network.1", 256, 256), tensors.take_linear("anchor_network.2", 256, 256),
+            tensors.take_linear("anchor_network.3", 3, 256)
+        };
     model->fuse = tensors.take_linear("fuse", 128, 256);
     model->tone = take_selector(tensors, "tone", 3, atoms, kToneLayers);
     model->gamma = take_selector(tensors, "gamma", candidates, atoms, 1);

@@ -11,30 +11,12 @@ namespace srisp {
 
 namespace {
 
-constexpr int kSide = 64; // to which a thumbnail is reduced, about
 constexpr double kDarkest = 1e-4;
 constexpr float kClipped = 0.95f;
 constexpr double kColorFloor = 2e-3; // added, so that noise in the dark has little colour
 constexpr double kBright = 0.75;     // quantile of the means from which on pixels are bright
 constexpr double kQuantiles[] = { 0.02, 0.1, 0.25, 0.4, 0.5, 0.6, 0.75, 0.9, 0.97, 0.995 };
 constexpr double kColorQuantiles[] = { 0.02, 0.1, 0.25, 0.5, 0.75, 0.9, 0.98 };
-
-/// Means over blocks of rows × columns pixels, whole blocks only.
-std::vector<float> block_means(const float* plane, int height, int width)
-{
-    const int rows = std::max(1, height / kSide), columns = std::max(1, width / kSide);
-    std::vector<float> means;
-    means.reserve(static_cast<std::size_t>(height / rows) * (width / columns));
-    for (int y = 0; y + rows <= height; y += rows)
-        for (int x = 0; x + columns <= width; x += columns) {
-            double sum = 0;
-            for (int dy = 0; dy < rows; ++dy)
-                for (int dx = 0; dx < columns; ++dx)
-                    sum += plane[static_cast<std::ptrdiff_t>(y + dy) * width + x + dx];
-            means.push_back(static_cast<float>(sum / (rows * columns)));
-        }
-    return means;
-}
 
 /// ln of each pixel's ratio to green.
 std::vector<float> log_ratios(const std::vector<float>& channel, const std::vector<float>& green)
@@ -57,11 +39,11 @@ std::vector<float> bright_ones(const std::vector<float>& values, const std::vect
 
 } // namespace
 
-std::array<float, kQuantileFeatures> quantile_features(Planes image, int height, int width)
+std::array<float, kQuantileFeatures> quantile_features(const PlanarImage& image)
 {
     std::vector<float> channels[4];
     for (int c = 0; c < 3; ++c)
-        channels[c] = block_means(image.plane(c), height, width);
+        channels[c] = block_means(image, c);
     channels[3].resize(channels[0].size());
     for (std::size_t i = 0; i < channels[3].size(); ++i)
         channels[3][i] = static_cast<float>((double(channels[0][i]) + channels[1][i] + channels[2][i]) / 3);

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "pointwise.h"
+#include "block_means.h"
 
 namespace srisp {
 
@@ -13,9 +13,7 @@ constexpr int kQuantileFeatures = 71;
 /// order, the quantiles 0.02, 0.1, 0.25, 0.4, 0.5, 0.6, 0.75, 0.9, 0.97, 0.995, each as ln(max(q, 1e-4)) × 0.5 + 1;
 /// then the shares of R, G and B above 0.95; then of the colours ln((R + 0.002) / (G + 0.002)) and the same of B the
 /// quantiles 0.02, 0.1, 0.25, 0.5, 0.75, 0.9, 0.98, over all pixels first, then over those whose mean of R, G, B is at
-/// or above its quantile 0.75. Taken of means over blocks of max(1, height / 64) × max(1, width / 64) pixels (whole
-/// blocks only), so that thumbnails of all sizes give about the same numbers. Quantiles interpolate linearly at q
-/// (count − 1). `image`: rows without gaps.
-std::array<float, kQuantileFeatures> quantile_features(Planes image, int height, int width);
+/// or above its quantile 0.75. Taken of `block_means`. Quantiles interpolate linearly at q (count − 1).
+std::array<float, kQuantileFeatures> quantile_features(const PlanarImage& image);
 
 } // namespace srisp

@@ -7,6 +7,7 @@
 
 #include "encoder.h"
 #include "linear_layer.h"
+#include "match_features.h"
 #include "quantile_features.h"
 #include "statistics.h"
 #include "tone_map.h"
@@ -98,8 +99,11 @@ private:
             m_source_statistics = statistics(linear.planes(), kCount);
             m_reference_statistics = statistics(m_reference.planes(), kCount);
             if (!m_model.anchor_network.empty()) {
-                m_source_quantiles = quantile_features(linear.planes(), kThumbnailSize, kThumbnailSize);
-                m_reference_quantiles = quantile_features(m_reference.planes(), kThumbnailSize, kThumbnailSize);
+                const PlanarImage source_image{ linear.planes(), kThumbnailSize, kThumbnailSize };
+                const PlanarImage reference_image{ m_reference.planes(), kThumbnailSize, kThumbnailSize };
+                m_source_quantiles = quantile_features(source_image);
+                m_reference_quantiles = quantile_features(reference_image);
+                m_match = match_features(source_image, reference_image);
             }
             add_statistics(source, *m_model.source_statistics, m_source_statistics);
             add_statistics(reference, *m_model.reference_statistics, m_reference_statistics);
@@ -205,6 +209,7 @@ private:
             return line;
         append(numbers, m_source_quantiles);
         append(numbers, m_reference_quantiles);
+        append(numbers, m_match);
         for (const Linear& layer : m_model.anchor_network) {
             numbers = transformed(layer, numbers);
             if (&layer != &m_model.anchor_network.back())
@@ -281,6 +286,7 @@ private:
     SelectionTrace* m_trace;
     std::array<float, 12> m_source_statistics{}, m_reference_statistics{};
     std::array<float, kQuantileFeatures> m_source_quantiles{}, m_reference_quantiles{};
+    std::array<float, kMatchFeatures> m_match{};
     std::vector<float> m_fused;
     std::array<float, 3> m_base_gain{ 1, 1, 1 };
     Parameters m_parameters;

@@ -15,7 +15,9 @@ constexpr double kFirstOutput = 0.1; // part of the usual scale: the line comes 
 torch::Tensor anchor_inputs(const torch::Tensor& statistics, const torch::Tensor& linear_source,
                             const torch::Tensor& reference)
 {
-    return torch::cat({ statistics, image_quantiles(linear_source), image_quantiles(reference) }, 1);
+    return torch::cat({ statistics, image_quantiles(linear_source), image_quantiles(reference),
+                        image_match(linear_source, reference) },
+                      1);
 }
 
 AnchorNetwork::AnchorNetwork(InitialWeights& initial)

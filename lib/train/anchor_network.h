@@ -7,14 +7,15 @@
 
 namespace srisp::train {
 
-/// What the anchor's network sees of a source (made linear) and a reference, [N, 166]: their twelve
-/// statistics each, [N, 24] (the anchor's line sees these alone), then their 71 quantile features each.
+/// What the anchor's network sees of a source (made linear) and a reference, [N, 217]: their twelve
+/// statistics each, [N, 24] (the anchor's line sees these alone), then their 71 quantile features each, then 51 numbers
+/// about how the two match.
 torch::Tensor anchor_inputs(const torch::Tensor& statistics, const torch::Tensor& linear_source,
                             const torch::Tensor& reference);
 
-constexpr int kAnchorStatistics = 24, kAnchorInputs = 166;
+constexpr int kAnchorStatistics = 24, kAnchorInputs = 217;
 
-/// What a line misses of the RAW's log channel means: four affine layers with ReLU between, [N, 166] → [N, 3].
+/// What a line misses of the RAW's log channel means: four affine layers with ReLU between, [N, 217] → [N, 3].
 class AnchorNetwork : public torch::nn::Module {
 public:
     explicit AnchorNetwork(InitialWeights& initial);

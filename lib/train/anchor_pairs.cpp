@@ -15,8 +15,8 @@ constexpr int kBatch = 64; // one step's
 
 } // namespace
 
-AnchorPairs::AnchorPairs(int wanted, bool with_quantiles)
-    : m_inputs(torch::empty({ wanted, with_quantiles ? kAnchorInputs : kAnchorStatistics })),
+AnchorPairs::AnchorPairs(int wanted, bool for_network)
+    : m_inputs(torch::empty({ wanted, for_network ? kAnchorInputs : kAnchorStatistics })),
       m_means(torch::empty({ wanted, 3, 3 }))
 {
 }
@@ -28,9 +28,9 @@ void AnchorPairs::make_more(Samples& samples)
     const Batch batch = samples.batch(m_made / kBatch, 0, count, 0, 0);
     const torch::Tensor source = linear_source(batch.source);
     const torch::Tensor statistics = torch::cat({ image_statistics(source), image_statistics(batch.reference) }, 1);
-    const bool with_quantiles = m_inputs.size(1) == kAnchorInputs;
+    const bool for_network = m_inputs.size(1) == kAnchorInputs;
     m_inputs.slice(0, m_made, m_made + count)
-        .copy_(with_quantiles ? anchor_inputs(statistics, source, batch.reference) : statistics);
+        .copy_(for_network ? anchor_inputs(statistics, source, batch.reference) : statistics);
     m_means.slice(0, m_made, m_made + count).copy_(means_of(batch.truth));
     m_made += count;
 }

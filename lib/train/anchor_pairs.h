@@ -9,8 +9,8 @@ namespace srisp::train {
 /// shall say. Making hundreds of thousands of them takes a quarter of an hour, so they can be kept and gone on from.
 class AnchorPairs {
 public:
-    /// Room for `wanted` pairs, ≥ 1. `with_quantiles`: the inputs of the anchor's network, too, not of its line alone.
-    AnchorPairs(int wanted, bool with_quantiles);
+    /// Room for `wanted` pairs, ≥ 1. `for_network`: the inputs of the anchor's network, too, not of its line alone.
+    AnchorPairs(int wanted, bool for_network);
 
     int wanted() const { return static_cast<int>(m_inputs.size(0)); }
     int made() const { return m_made; }
@@ -22,7 +22,7 @@ public:
     /// Goes on from those that an object of the same kind had made; false where they cannot be its.
     bool take(const torch::Tensor& inputs, const torch::Tensor& means);
 
-    /// Of those that are made, [n, 166], or [n, 24] without quantiles.
+    /// Of those that are made, [n, 217], or [n, 24] for a line alone.
     torch::Tensor inputs() const { return m_inputs.slice(0, 0, m_made); }
     /// Of their RAW images, [n, 3, 3], as `means_of` returns them.
     torch::Tensor means() const { return m_means.slice(0, 0, m_made); }

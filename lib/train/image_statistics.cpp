@@ -5,6 +5,7 @@
 
 #include <ATen/Parallel.h>
 
+#include "match_features.h"
 #include "quantile_features.h"
 #include "statistics.h"
 
@@ -12,36 +13,60 @@ namespace srisp::train {
 
 namespace {
 
-/// `numbers_of(planes, height, width)` of each image, an array of `count`.
-template<class Numbers> torch::Tensor numbers_of_each(const torch::Tensor& linear, int count, const Numbers& numbers_of)
+/// The library takes float32 planes in the CPU's memory.
+torch::Tensor as_planes(const torch::Tensor& images)
 {
-    const torch::Tensor images = linear.detach().to(torch::kCPU, torch::kFloat32).contiguous();
+    return images.detach().to(torch::kCPU, torch::kFloat32).contiguous();
+}
+
+PlanarImage image_of(const torch::Tensor& images, std::int64_t i)
+{
     const std::int64_t height = images.size(2), width = images.size(3), pixels = height * width;
-    torch::Tensor result = torch::empty({ images.size(0), count });
-    float* const values = images.data_ptr<float>();
+    return { { images.data_ptr<float>() + i * 3 * pixels, pixels }, static_cast<int>(height), static_cast<int>(width) };
+}
+
+/// `numbers_of(i)`, an array of `count`, for each of n images.
+template<class Numbers> torch::Tensor numbers_of_each(std::int64_t n, int count, const Numbers& numbers_of)
+{
+    torch::Tensor result = torch::empty({ n, count });
     float* const numbers = result.data_ptr<float>();
-    at::parallel_for(0, images.size(0), 1, [&](std::int64_t begin, std::int64_t end) {
+    at::parallel_for(0, n, 1, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
-            const auto some = numbers_of(Planes{ values + i * 3 * pixels, pixels }, static_cast<int>(height),
-                                         static_cast<int>(width));
+            const auto some = numbers_of(i);
             std::copy(some.begin(), some.end(), numbers + i * count);
         }
     });
-    return result.to(linear.device());
+    return result;
 }
 
 } // namespace
 
 torch::Tensor image_statistics(const torch::Tensor& linear)
 {
-    return numbers_of_each(linear, 12, [](Planes image, int height, int width) {
-        return statistics(image, static_cast<std::size_t>(height) * width);
-    });
+    const torch::Tensor images = as_planes(linear);
+    return numbers_of_each(images.size(0), 12,
+                           [&](std::int64_t i) {
+                               const PlanarImage image = image_of(images, i);
+                               return statistics(image.planes, static_cast<std::size_t>(image.height) * image.width);
+                           })
+        .to(linear.device());
 }
 
 torch::Tensor image_quantiles(const torch::Tensor& linear)
 {
-    return numbers_of_each(linear, kQuantileFeatures, quantile_features);
+    const torch::Tensor images = as_planes(linear);
+    return numbers_of_each(images.size(0), kQuantileFeatures,
+                           [&](std::int64_t i) { return quantile_features(image_of(images, i)); })
+        .to(linear.device());
+}
+
+torch::Tensor image_match(const torch::Tensor& linear_source, const torch::Tensor& reference)
+{
+    const torch::Tensor sources = as_planes(linear_source), references = as_planes(reference);
+    return numbers_of_each(
+               sources.size(0), kMatchFeatures,
+               [&](std::int64_t i) { return match_features(image_of(sources, i), image_of(references, i)); })
+        .to(linear_source.device());
 }
 
 torch::Tensor linear_source(const torch::Tensor& display)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""An independent implementation, in NumPy, of what model format srisp-4 adds to srisp-1: the quantile features, the
-network that corrects the anchor, and white-balance gains of at least 1. Writes anchor_network.json, which the tests
-compare the library with.
+"""An independent implementation, in NumPy, of what model format srisp-5 adds to srisp-1: the quantile features, the
+match features, the network that corrects the anchor, and white-balance gains of at least 1. Writes anchor_network.json,
+which the tests compare the library with.
 
     python3 tests/golden/anchor_network.py GOLDEN > tests/golden/anchor_network.json
 
@@ -27,12 +27,17 @@ def load(path):
     }
 
 
-def quantile_features(image):
-    """image: [height, width, 3], linear."""
+def reduced(image):
+    """Means over blocks, [pixels, 3], of an image [height, width, 3]."""
     height, width, _ = image.shape
     rows, columns = max(1, height // 64), max(1, width // 64)
     whole = image[: height // rows * rows, : width // columns * columns].astype(np.float64)
-    small = whole.reshape(height // rows, rows, width // columns, columns, 3).mean((1, 3)).reshape(-1, 3)
+    return whole.reshape(height // rows, rows, width // columns, columns, 3).mean((1, 3)).reshape(-1, 3)
+
+
+def quantile_features(image):
+    """image: [height, width, 3], linear."""
+    small = reduced(image)
     levels = [0.02, 0.1, 0.25, 0.4, 0.5, 0.6, 0.75, 0.9, 0.97, 0.995]
     channels = [small[:, 0], small[:, 1], small[:, 2], small.mean(1)]
     quantiles = [np.quantile(channel, levels) for channel in channels]
@@ -44,9 +49,53 @@ def quantile_features(image):
     return np.concatenate([logs, (small > 0.95).mean(0), *color_quantiles])
 
 
-def made_up_image(height, width):
+def histogram(pixels):
+    """Shares of 32 x 32 x 32 cells of ln R/G, ln B/G and ln brightness."""
+    mean = pixels.mean(1)
+    weighs = (pixels.max(1) < 0.95) & (mean > 0.05 * mean.mean())
+    logs = np.log(np.maximum(pixels, 1e-4))
+    axes = [
+        (logs[:, 0] - logs[:, 1]) / 0.12,
+        (logs[:, 2] - logs[:, 1]) / 0.12,
+        (np.log(np.maximum(mean, 1e-5)) + 3) / 0.25,
+    ]
+    places = np.clip(np.stack(axes) + 16, 0, 30.99)
+    cells, beyond = places.astype(int), places % 1
+    weights = np.where(weighs, np.sqrt(np.maximum(mean, 1e-6)), 0)
+    result = np.zeros((32, 32, 32))
+    for corner in np.ndindex(2, 2, 2):
+        upper = np.array(corner)[:, None]
+        np.add.at(result, tuple(cells + upper), weights * np.where(upper, beyond, 1 - beyond).prod(0))
+    return result / max(result.sum(), 1e-6)
+
+
+def match_features(photo, reference):
+    """Images [height, width, 3], linear."""
+    camera = np.array([[0.60, 0.32, 0.08], [0.15, 0.70, 0.15], [0.05, 0.28, 0.67]])
+    frequencies = np.fft.fftfreq(32)
+    shifts = frequencies * 32
+    reference_spectrum = np.fft.fftn(np.sqrt(histogram(reduced(reference))))
+    features = []
+    for gamma in (1.65, 2.2, 2.9):
+        seen = reduced(photo) ** (gamma / 2.2) @ camera.T
+        spectrum = np.conj(np.fft.fftn(np.sqrt(histogram(seen)))) * reference_spectrum
+        for cells in (0.5, 1):
+            gaussian = np.exp(-2 * np.pi**2 * cells**2 * frequencies**2)
+            smooth = np.einsum("i,j,k->ijk", gaussian, gaussian, gaussian)
+            correlation = np.fft.ifftn(spectrum * smooth).real
+            fits = np.exp(25 * (correlation / correlation.max() - 1))
+            for axis, size in enumerate((0.12, 0.12, 0.25)):
+                share = fits.sum(tuple({0, 1, 2} - {axis})) / fits.sum()
+                shift = share @ shifts
+                features += [shift * size, np.sqrt(share @ (shifts - shift) ** 2) * size]
+            features.append(correlation.max())
+        features += list(np.log(np.maximum(seen.mean(0), 1e-4)))
+    return np.array(features)
+
+
+def made_up_image(height, width, phase=0):
     y, x, c = np.meshgrid(np.arange(height), np.arange(width), np.arange(3), indexing="ij")
-    wave = 0.5 + 0.5 * np.sin(0.013 * x + 0.007 * (c + 1) * y + c)
+    wave = 0.5 + 0.5 * np.sin(0.013 * x + 0.007 * (c + 1) * y + c + phase)
     return np.minimum(1.05 * wave**2, 1).astype(np.float32)
 
 
@@ -119,13 +168,16 @@ photo = golden["thumb.source"].reshape(256, 256, 3).astype(np.float64)
 source = np.maximum(photo, 1e-8) ** 2.2
 reference = golden["thumb.reference"].reshape(256, 256, 3)
 statistics = [golden[name].reshape(-1) for name in ("source_statistics", "reference_statistics")]
-correction = made_up_network(np.concatenate([*statistics, quantile_features(source), quantile_features(reference)]))
+quantiles = [quantile_features(image) for image in (source, reference)]
+correction = made_up_network(np.concatenate([*statistics, *quantiles, match_features(source, reference)]))
 base = golden["base_gain"].reshape(-1).astype(np.float64) / np.exp(correction)
 white_balance, gain = gains(model, golden, photo, base)
 json.dump(
     {
         "features_256x256": quantile_features(made_up_image(256, 256)).tolist(),
         "features_150x70": quantile_features(made_up_image(150, 70)).tolist(),
+        "match_256x256": match_features(made_up_image(256, 256), made_up_image(256, 256, 0.6) * 0.5).tolist(),
+        "match_150x70": match_features(made_up_image(150, 70), made_up_image(150, 70, 0.6) * 0.5).tolist(),
         "correction": correction.tolist(),
         "base_gain": base.tolist(),
         "white_balance": white_balance.tolist(),

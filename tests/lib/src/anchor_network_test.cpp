@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What model format srisp-4 adds, against an independent implementation: tests/golden/anchor_network.py.
+// What model format srisp-5 adds, against an independent implementation: tests/golden/anchor_network.py.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <utility>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 #include <srisp/model.h>
 
 #include "image_compare.h"
+#include "match_features.h"
 #include "model_parser.h"
 #include "quantile_features.h"
 #include "random_model.h"
@@ -36,14 +38,14 @@ template<class Values> void check_near(const Values& actual, const char* name)
     CHECK(difference.largest_relative <= kTolerance);
 }
 
-std::vector<float> made_up_image(int height, int width)
+std::vector<float> made_up_image(int height, int width, double phase = 0, double scale = 1)
 {
     std::vector<float> planes;
     for (int c = 0; c < 3; ++c)
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
-                const double wave = 0.5 + 0.5 * std::sin(0.013 * x + 0.007 * (c + 1) * y + c);
-                planes.push_back(static_cast<float>(std::min(1.05 * wave * wave, 1.0)));
+                const double wave = 0.5 + 0.5 * std::sin(0.013 * x + 0.007 * (c + 1) * y + c + phase);
+                planes.push_back(static_cast<float>(scale * std::min(1.05 * wave * wave, 1.0)));
             }
     return planes;
 }
@@ -64,14 +66,14 @@ Tensor made_up(std::vector<std::int64_t> shape, double scale, double (*wave)(dou
 TEST_CASE("quantile features of large and of odd images")
 {
     std::vector<float> square = made_up_image(256, 256), odd = made_up_image(150, 70);
-    check_near(quantile_features({ square.data(), 256 * 256 }, 256, 256), "features_256x256");
-    check_near(quantile_features({ odd.data(), 150 * 70 }, 150, 70), "features_150x70");
+    check_near(quantile_features({ { square.data(), 256 * 256 }, 256, 256 }), "features_256x256");
+    check_near(quantile_features({ { odd.data(), 150 * 70 }, 150, 70 }), "features_150x70");
 }
 
 TEST_CASE("quantile features of one pixel, and of darkness")
 {
     float pixel[] = { 1, 0.5f, 0 };
-    const auto features = quantile_features({ pixel, 1 }, 1, 1);
+    const auto features = quantile_features({ { pixel, 1 }, 1, 1 });
     CHECK(features[0] == doctest::Approx(1));
     CHECK(features[10] == doctest::Approx(std::log(0.5) / 2 + 1));
     CHECK(features[20] == doctest::Approx(std::log(1e-4) / 2 + 1));
@@ -84,6 +86,65 @@ TEST_CASE("quantile features of one pixel, and of darkness")
     }
 }
 
+TEST_CASE("match features of large and of odd images")
+{
+    const auto check = [](int height, int width, const char* name) {
+        std::vector<float> photo = made_up_image(height, width), reference = made_up_image(height, width, 0.6, 0.5);
+        const std::ptrdiff_t pixels = height * width;
+        check_near(match_features({ { photo.data(), pixels }, height, width },
+                                  { { reference.data(), pixels }, height, width }),
+                   name);
+    };
+    check(256, 256, "match_256x256");
+    check(150, 70, "match_150x70");
+}
+
+TEST_CASE("match features find by how much one image's colours are moved")
+{
+    // 300 colours as far apart as a few cells, seen through the same camera with γ = 2.2 (features 17 to 33).
+    constexpr int side = 20, pixels = side * side;
+    const double gains[] = { std::exp(-0.36), 1, std::exp(0.24) }; // 3 and 2 cells
+    const double brightness = std::exp(-0.5);
+    std::vector<float> photo(3 * pixels), reference(3 * pixels);
+    Random random(1);
+    for (int i = 0; i < pixels; ++i) {
+        const double value = std::exp(-3 + 0.8 * random.uniform(-1, 1));
+        const double y[] = { value * std::exp(0.5 * random.uniform(-1, 1)), value,
+                             value * std::exp(0.5 * random.uniform(-1, 1)) };
+        const double seen[] = { 0.60 * y[0] + 0.32 * y[1] + 0.08 * y[2], 0.15 * y[0] + 0.70 * y[1] + 0.15 * y[2],
+                                0.05 * y[0] + 0.28 * y[1] + 0.67 * y[2] };
+        const double sum = seen[0] + seen[1] + seen[2],
+                     moved = seen[0] * gains[0] + seen[1] * gains[1] + seen[2] * gains[2];
+        for (int c = 0; c < 3; ++c) {
+            photo[c * pixels + i] = static_cast<float>(y[c]);
+            reference[c * pixels + i] = static_cast<float>(seen[c] * gains[c] * brightness * sum / moved);
+        }
+    }
+    const auto features =
+        match_features({ { photo.data(), pixels }, side, side }, { { reference.data(), pixels }, side, side });
+    CHECK(features[17] == doctest::Approx(-0.36).epsilon(0.05));
+    CHECK(features[19] == doctest::Approx(0.24).epsilon(0.05));
+    CHECK(features[21] == doctest::Approx(-0.5).epsilon(0.05));
+    CHECK(features[23] > 0.7); // they match
+    CHECK(features[18] < 0.1); // and only so
+}
+
+TEST_CASE("match features of an image without pixels that weigh say that all shifts are as likely")
+{
+    std::vector<float> white(3 * 16, 1), gray(3 * 16, 0.2f);
+    for (auto [photo, reference] : { std::pair(&white, &gray), std::pair(&gray, &white), std::pair(&white, &white) }) {
+        const auto features = match_features({ { photo->data(), 16 }, 4, 4 }, { { reference->data(), 16 }, 4, 4 });
+        const double deviation = std::sqrt((32 * 32 - 1) / 12.0);
+        for (const int first : { 0, 7, 17, 24, 34, 41 }) {
+            CHECK(features[first] == doctest::Approx(-0.5 * 0.12));
+            CHECK(features[first + 1] == doctest::Approx(deviation * 0.12));
+            CHECK(features[first + 4] == doctest::Approx(-0.5 * 0.25));
+            CHECK(features[first + 5] == doctest::Approx(deviation * 0.25));
+            CHECK(features[first + 6] == 0);
+        }
+    }
+}
+
 TEST_CASE("the anchor's network corrects the golden model's gains, and no white-balance gain is below 1")
 {
     SKIP_WITHOUT_SHARED("golden/model_spatial.safetensors");
@@ -93,8 +154,8 @@ TEST_CASE("the anchor's network corrects the golden model's gains, and no white-
     Expected<SafeTensors> golden = parse_safetensors(*bytes, path);
     REQUIRE(golden);
     ModelFile file{ golden->metadata, golden->tensors };
-    file.metadata["format"] = "srisp-4";
-    const std::int64_t sizes[] = { 24 + 2 * kQuantileFeatures, 256, 256, 256, 3 };
+    file.metadata["format"] = "srisp-5";
+    const std::int64_t sizes[] = { 24 + 2 * kQuantileFeatures + kMatchFeatures, 256, 256, 256, 3 };
     for (int l = 0; l < 4; ++l) {
         const std::string layer = "anchor_network." + std::to_string(l);
         file.tensors[layer + ".weight"] = made_up(
@@ -124,12 +185,12 @@ TEST_CASE("the anchor's network corrects the golden model's gains, and no white-
 TEST_CASE("a network without an anchor, or of another shape, is refused")
 {
     ModelFile file = random_model(3, 1);
-    file.metadata["format"] = "srisp-4";
+    file.metadata["format"] = "srisp-5";
     Expected<std::unique_ptr<ModelData>> model = parse_model(file.bytes(), "m");
     REQUIRE(!model);
     CHECK(model.error().message == "m: has no tensor 'anchor_network.0.weight'");
     file.metadata["anchor"] = "0";
     model = parse_model(file.bytes(), "m");
     REQUIRE(!model);
-    CHECK(model.error().message == "m: metadata 'format' is srisp-4 but 'anchor' is 0; its network needs the anchor");
+    CHECK(model.error().message == "m: metadata 'format' is srisp-5 but 'anchor' is 0; its network needs the anchor");
 }

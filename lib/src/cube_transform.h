@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+namespace srisp {
+
+/// 32 × 32 × 32 complex values and their discrete Fourier transform, float32. Both directions work in place, leave out
+/// the factor 1 / 32³, and take the least effort for convolutions: the spectrum is in an order of its own.
+class CubeTransform {
+public:
+    static constexpr int kSide = 32, kCells = kSide * kSide * kSide;
+
+    CubeTransform() : m_real(kCells), m_imaginary(kCells) {}
+
+    /// Cell (x, y, z) is at (x · 32 + y) · 32 + z; in the spectrum, the frequencies (x, y, z) are at
+    /// (place(x) · 32 + place(z)) · 32 + place(y).
+    float* real() { return m_real.data(); }
+    float* imaginary() { return m_imaginary.data(); }
+    /// Where frequency k, 0 … 31, is along its axis: the bits of k reversed.
+    static int place(int k);
+
+    void forward();
+    void inverse();
+
+private:
+    std::vector<float> m_real, m_imaginary;
+};
+
+} // namespace srisp
