@@ -31,15 +31,15 @@ const Roots& roots()
     return table;
 }
 
-/// Of 32 columns side by side, whose 32 values are `stride` apart. Frequencies come out with their bits reversed.
+/// Frequencies come out with their bits reversed.
 void forward_columns(float* real, float* imaginary, int stride)
 {
     for (int half = kSide / 2; half > 0; half /= 2)
         for (int j = 0; j < half; ++j) {
             const float c = roots().cosine[j * (kSide / 2) / half], s = roots().sine[j * (kSide / 2) / half];
             for (int block = j; block < kSide; block += 2 * half) {
-                float *const ar = real + block * stride, *const __restrict ai = imaginary + block * stride;
-                float *const br = ar + half * stride, *const __restrict bi = ai + half * stride;
+                float *const ar = real + block * stride, *const ai = imaginary + block * stride;
+                float *const br = ar + half * stride, *const bi = ai + half * stride;
                 for (int i = 0; i < kSide; ++i) {
                     const float dr = ar[i] - br[i], di = ai[i] - bi[i];
                     ar[i] += br[i];
@@ -58,8 +58,8 @@ void inverse_columns(float* real, float* imaginary, int stride)
         for (int j = 0; j < half; ++j) {
             const float c = roots().cosine[j * (kSide / 2) / half], s = -roots().sine[j * (kSide / 2) / half];
             for (int block = j; block < kSide; block += 2 * half) {
-                float *const ar = real + block * stride, *const __restrict ai = imaginary + block * stride;
-                float *const br = ar + half * stride, *const __restrict bi = ai + half * stride;
+                float *const ar = real + block * stride, *const ai = imaginary + block * stride;
+                float *const br = ar + half * stride, *const bi = ai + half * stride;
                 for (int i = 0; i < kSide; ++i) {
                     const float tr = br[i] * c - bi[i] * s, ti = br[i] * s + bi[i] * c;
                     br[i] = ar[i] - tr;
@@ -88,30 +88,33 @@ int CubeTransform::place(int k)
     return reversed;
 }
 
-void CubeTransform::forward()
+void CubeTransform::transform_x(Columns columns)
 {
     for (int y = 0; y < kSide; ++y)
-        forward_columns(real() + y * kSide, imaginary() + y * kSide, kPlane);
+        columns(real() + y * kSide, imaginary() + y * kSide, kPlane);
+}
+
+void CubeTransform::transform_planes(Columns columns)
+{
     for (int x = 0; x < kSide; ++x) {
         float *const plane_real = real() + x * kPlane, *const plane_imaginary = imaginary() + x * kPlane;
-        forward_columns(plane_real, plane_imaginary, kSide);
+        columns(plane_real, plane_imaginary, kSide);
         transpose(plane_real);
         transpose(plane_imaginary);
-        forward_columns(plane_real, plane_imaginary, kSide);
+        columns(plane_real, plane_imaginary, kSide);
     }
+}
+
+void CubeTransform::forward()
+{
+    transform_x(forward_columns);
+    transform_planes(forward_columns);
 }
 
 void CubeTransform::inverse()
 {
-    for (int x = 0; x < kSide; ++x) {
-        float *const plane_real = real() + x * kPlane, *const plane_imaginary = imaginary() + x * kPlane;
-        inverse_columns(plane_real, plane_imaginary, kSide);
-        transpose(plane_real);
-        transpose(plane_imaginary);
-        inverse_columns(plane_real, plane_imaginary, kSide);
-    }
-    for (int y = 0; y < kSide; ++y)
-        inverse_columns(real() + y * kSide, imaginary() + y * kSide, kPlane);
+    transform_planes(inverse_columns);
+    transform_x(inverse_columns);
 }
 
 } // namespace srisp

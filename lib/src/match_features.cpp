@@ -28,18 +28,11 @@ constexpr double kSmoothing[] = { 0.5, 1 }; // cells
 constexpr float kSharpness = 25, kNegligible = -20;
 constexpr float kNoMatch = 1e-6f; // least max c: below is rounding
 
-using Channels = std::array<std::vector<float>, 3>;
-
-Channels reduced(const PlanarImage& image)
-{
-    return { block_means(image, 0), block_means(image, 1), block_means(image, 2) };
-}
-
 /// As a typical camera would see it.
-Channels seen_by_camera(const Channels& linear, double gamma)
+ReducedImage seen_by_camera(const ReducedImage& linear, double gamma)
 {
     const float exponent = static_cast<float>(gamma / kSourceGamma);
-    Channels powers = linear, result = linear;
+    ReducedImage powers = linear, result = linear;
     for (std::vector<float>& channel : powers)
         for (float& v : channel)
             v = std::pow(v, exponent);
@@ -84,7 +77,7 @@ void add(float* cells, const Place& x, const Place& y, const Place& z, float wei
 }
 
 /// Square roots of the cells' shares; x: brightness, y: ln(R / G), z: ln(B / G).
-std::vector<float> root_histogram(const Channels& image)
+std::vector<float> root_histogram(const ReducedImage& image)
 {
     const double dark = kDark * (mean(image[0]) + mean(image[1]) + mean(image[2])) / 3;
     std::vector<float> cells(kCells);
@@ -206,15 +199,14 @@ float* describe_peak(float* correlation, float* features)
 
 } // namespace
 
-std::array<float, kMatchFeatures> match_features(const PlanarImage& linear_source, const PlanarImage& reference)
+std::array<float, kMatchFeatures> match_features(const ReducedImage& linear_source, const ReducedImage& reference)
 {
-    const Channels source = reduced(linear_source);
-    const std::vector<float> reference_roots = root_histogram(reduced(reference));
+    const std::vector<float> reference_roots = root_histogram(reference);
     std::array<float, kMatchFeatures> features;
     float* next = features.data();
     CubeTransform cube;
     for (const double gamma : kGammas) {
-        const Channels seen = seen_by_camera(source, gamma);
+        const ReducedImage seen = seen_by_camera(linear_source, gamma);
         const std::vector<float> roots = root_histogram(seen);
         std::copy(roots.begin(), roots.end(), cube.real());
         std::copy(reference_roots.begin(), reference_roots.end(), cube.imaginary());

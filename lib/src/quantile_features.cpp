@@ -39,12 +39,9 @@ std::vector<float> bright_ones(const std::vector<float>& values, const std::vect
 
 } // namespace
 
-std::array<float, kQuantileFeatures> quantile_features(const PlanarImage& image)
+std::array<float, kQuantileFeatures> quantile_features(const ReducedImage& image)
 {
-    std::vector<float> channels[4];
-    for (int c = 0; c < 3; ++c)
-        channels[c] = block_means(image, c);
-    channels[3].resize(channels[0].size());
+    std::vector<float> channels[4] = { image[0], image[1], image[2], std::vector<float>(image[0].size()) };
     for (std::size_t i = 0; i < channels[3].size(); ++i)
         channels[3][i] = static_cast<float>((double(channels[0][i]) + channels[1][i] + channels[2][i]) / 3);
 

@@ -99,11 +99,11 @@ private:
             m_source_statistics = statistics(linear.planes(), kCount);
             m_reference_statistics = statistics(m_reference.planes(), kCount);
             if (!m_model.anchor_network.empty()) {
-                const PlanarImage source_image{ linear.planes(), kThumbnailSize, kThumbnailSize };
-                const PlanarImage reference_image{ m_reference.planes(), kThumbnailSize, kThumbnailSize };
-                m_source_quantiles = quantile_features(source_image);
-                m_reference_quantiles = quantile_features(reference_image);
-                m_match = match_features(source_image, reference_image);
+                const ReducedImage small_source = reduced({ linear.planes(), kThumbnailSize, kThumbnailSize });
+                const ReducedImage small_reference = reduced({ m_reference.planes(), kThumbnailSize, kThumbnailSize });
+                m_source_quantiles = quantile_features(small_source);
+                m_reference_quantiles = quantile_features(small_reference);
+                m_match = match_features(small_source, small_reference);
             }
             add_statistics(source, *m_model.source_statistics, m_source_statistics);
             add_statistics(reference, *m_model.reference_statistics, m_reference_statistics);

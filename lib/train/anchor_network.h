@@ -4,6 +4,8 @@
 #include <functional>
 
 #include "feature_encoder.h"
+#include "match_features.h"
+#include "quantile_features.h"
 
 namespace srisp::train {
 
@@ -13,7 +15,8 @@ namespace srisp::train {
 torch::Tensor anchor_inputs(const torch::Tensor& statistics, const torch::Tensor& linear_source,
                             const torch::Tensor& reference);
 
-constexpr int kAnchorStatistics = 24, kAnchorInputs = 217;
+constexpr int kAnchorStatistics = 24;
+constexpr int kAnchorInputs = kAnchorStatistics + 2 * kQuantileFeatures + kMatchFeatures;
 
 /// What a line misses of the RAW's log channel means: four affine layers with ReLU between, [N, 217] → [N, 3].
 class AnchorNetwork : public torch::nn::Module {

@@ -56,16 +56,17 @@ torch::Tensor image_quantiles(const torch::Tensor& linear)
 {
     const torch::Tensor images = as_planes(linear);
     return numbers_of_each(images.size(0), kQuantileFeatures,
-                           [&](std::int64_t i) { return quantile_features(image_of(images, i)); })
+                           [&](std::int64_t i) { return quantile_features(reduced(image_of(images, i))); })
         .to(linear.device());
 }
 
 torch::Tensor image_match(const torch::Tensor& linear_source, const torch::Tensor& reference)
 {
     const torch::Tensor sources = as_planes(linear_source), references = as_planes(reference);
-    return numbers_of_each(
-               sources.size(0), kMatchFeatures,
-               [&](std::int64_t i) { return match_features(image_of(sources, i), image_of(references, i)); })
+    return numbers_of_each(sources.size(0), kMatchFeatures,
+                           [&](std::int64_t i) {
+                               return match_features(reduced(image_of(sources, i)), reduced(image_of(references, i)));
+                           })
         .to(linear_source.device());
 }
 

@@ -165,7 +165,7 @@ rehearsed() {
 check "--dry-run says what would be done, and writes nothing" rehearsed
 on_a_terminal() {
     script -qec "'$train' tiny.json -o tty --threads 1" /dev/null </dev/null >tty.txt || { cat tty.txt; return 1; }
-    tr '\r' '\n' <tty.txt | grep -q '/8, .*/s, loss [0-9.]* .* left' || { cat tty.txt; return 1; }
+    tr '\r' '\n' <tty.txt | grep -q '/8, .*/s, loss [0-9][0-9.]* .* left' || { cat tty.txt; return 1; }
 }
 check "on a terminal a line says how far it is" on_a_terminal
 check "--list-settings" sh -c '"$1" tiny.json --list-settings | grep -q "^steps = 8$"' sh "$train"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "block_means.h"
+#include "reduced_image.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -9,8 +9,6 @@ namespace srisp {
 namespace {
 
 constexpr int kSide = 64; // of the reduced plane, about
-
-} // namespace
 
 std::vector<float> block_means(const PlanarImage& image, int channel)
 {
@@ -28,6 +26,13 @@ std::vector<float> block_means(const PlanarImage& image, int channel)
             means.push_back(static_cast<float>(sum / (rows * columns)));
         }
     return means;
+}
+
+} // namespace
+
+ReducedImage reduced(const PlanarImage& image)
+{
+    return { block_means(image, 0), block_means(image, 1), block_means(image, 2) };
 }
 
 } // namespace srisp
