@@ -22,6 +22,7 @@ struct Pipeline {
     Matrix3 color;                   // C (forward) or its inverse (reverse)
     float exponent;                  // 1/γ (forward) or γ (reverse)
     float white_balance[3], gain[3]; // multipliers (forward) or scales 1/g (reverse)
+    bool rebuilds_highlights;        // forward
 };
 
 namespace {
@@ -107,8 +108,12 @@ void after_tone_map(const Pipeline& p, Planes row, std::size_t count)
 /// What comes before the tone map in the forward pass.
 void before_tone_map(const Pipeline& p, Planes row, std::size_t count)
 {
-    multiply(row, row, count, p.gain);
-    multiply(row, row, count, p.white_balance);
+    if (p.rebuilds_highlights) {
+        rebuild_highlights(row, row, count, p.white_balance, p.gain[0]);
+    } else {
+        multiply(row, row, count, p.gain);
+        multiply(row, row, count, p.white_balance);
+    }
     color_transform(row, row, count, p.color);
     power(row, row, count, p.exponent, 1e-8f, 0);
 }
@@ -264,6 +269,7 @@ Expected<std::shared_ptr<const Applier>> Applier::create(const Model& model, con
         const bool reverse = direction == Direction::reverse;
         auto pipeline = std::make_unique<Pipeline>();
         pipeline->direction = direction;
+        pipeline->rebuilds_highlights = model.data().rebuilds_highlights(parameters.gain);
         pipeline->tone_map = mix_tone_map(reverse ? model.data().tone_reverse : model.data().tone_forward,
                                           parameters.tone_weights, tone_method(precision));
         pipeline->color = reverse ? inverse(parameters.color) : parameters.color;

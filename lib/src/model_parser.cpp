@@ -203,7 +203,7 @@ struct Parts {
 Status read_settings(ModelData& model, const std::string& where, Parts& parts)
 {
     MetadataReader metadata(model.metadata, where);
-    parts.anchor_network = metadata.one_of("format", { "srisp-1", "srisp-5" }) == "srisp-5";
+    parts.anchor_network = metadata.one_of("format", { "srisp-1", "srisp-6" }) == "srisp-6";
     model.kernel_size = metadata.one_of("kernel_size", { "3", "1" }) == "1" ? 1 : 3;
     model.dictionary_size = metadata.count("dictionary_size", kMaxDictionarySize);
     model.perceptual_encoder_input = metadata.one_of("encoder_input", { "perceptual", "plain" }) == "perceptual";
@@ -216,7 +216,7 @@ Status read_settings(ModelData& model, const std::string& where, Parts& parts)
     if (parts.anchor && !parts.statistics)
         return Error{ where + ": metadata 'anchor' is 1 but 'statistics' is 0; the anchor needs the statistics" };
     if (parts.anchor_network && !parts.anchor)
-        return Error{ where + ": metadata 'format' is srisp-5 but 'anchor' is 0; its network needs the anchor" };
+        return Error{ where + ": metadata 'format' is srisp-6 but 'anchor' is 0; its network needs the anchor" };
     return {};
 }
 

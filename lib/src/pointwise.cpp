@@ -159,6 +159,23 @@ void inverse_gain(Planes in, Planes out, std::size_t count, const float scales[3
     });
 }
 
+void rebuild_highlights(Planes in, Planes out, std::size_t count, const float balance[3], float gain)
+{
+    const D d;
+    const V one = hn::Set(d, 1.0f), knee = hn::Set(d, 2.9f), ten = hn::Set(d, 10.0f);
+    const V g = hn::Set(d, gain), most = hn::Set(d, 1 / gain);
+    for_each_vector(count, [&](std::size_t x) {
+        V u[3];
+        for (int c = 0; c < 3; ++c)
+            u[c] = hn::Min(hn::Mul(hn::LoadU(d, in.plane(c) + x), hn::Set(d, balance[c])), most);
+        const V sum = hn::Add(hn::Add(hn::Min(u[0], one), hn::Min(u[1], one)), hn::Min(u[2], one));
+        const V above = clamped01(hn::Mul(hn::Sub(sum, knee), ten)), m = hn::Mul(above, above);
+        const V top = hn::Max(hn::Max(u[0], u[1]), u[2]);
+        for (int c = 0; c < 3; ++c)
+            hn::StoreU(clamped01(hn::Mul(g, hn::MulAdd(m, hn::Sub(top, u[c]), u[c]))), d, out.plane(c) + x);
+    });
+}
+
 void split_channels(const float* rgb, Planes out, std::size_t count)
 {
     const D d;
@@ -199,6 +216,7 @@ HWY_EXPORT(power);
 HWY_EXPORT(color_transform);
 HWY_EXPORT(multiply);
 HWY_EXPORT(inverse_gain);
+HWY_EXPORT(rebuild_highlights);
 HWY_EXPORT(split_channels);
 HWY_EXPORT(join_channels);
 
@@ -221,6 +239,10 @@ void multiply(Planes in, Planes out, std::size_t count, const float gains[3])
 void inverse_gain(Planes in, Planes out, std::size_t count, const float scales[3])
 {
     HWY_DYNAMIC_DISPATCH(inverse_gain)(in, out, count, scales);
+}
+void rebuild_highlights(Planes in, Planes out, std::size_t count, const float balance[3], float gain)
+{
+    HWY_DYNAMIC_DISPATCH(rebuild_highlights)(in, out, count, balance, gain);
 }
 
 void split_channels(const float* rgb, Planes out, std::size_t count)
@@ -269,6 +291,21 @@ void inverse_gain(Planes in, Planes out, std::size_t count, const float scales[3
         const float above = clamped01(((rgb[0] + rgb[1] + rgb[2]) / 3 - 0.9f) / 0.1f), m = above * above;
         for (int c = 0; c < 3; ++c)
             out.plane(c)[x] = rgb[c] * std::max(m + (1 - m) * scales[c], scales[c]);
+    }
+}
+
+void rebuild_highlights(Planes in, Planes out, std::size_t count, const float balance[3], float gain)
+{
+    for (std::size_t x = 0; x < count; ++x) {
+        float u[3], sum = 0, top = 0;
+        for (int c = 0; c < 3; ++c) {
+            u[c] = std::min(in.plane(c)[x] * balance[c], 1 / gain);
+            sum += std::min(u[c], 1.0f);
+            top = std::max(top, u[c]);
+        }
+        const float above = clamped01((sum - 2.9f) * 10), m = above * above;
+        for (int c = 0; c < 3; ++c)
+            out.plane(c)[x] = clamped01(gain * (u[c] + m * (top - u[c])));
     }
 }
 

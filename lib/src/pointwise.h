@@ -31,6 +31,11 @@ void multiply(Planes in, Planes out, std::size_t count, const float gains[3]);
 /// Highlight-preserving inverse gain, scales s = 1 / g, unclamped (Brooks et al. 2019): v · max(m + (1 − m) s, s) with
 /// m = clamp01((mean(v) − 0.9) / 0.1)².
 void inverse_gain(Planes in, Planes out, std::size_t count, const float scales[3]);
+/// White balance and gain < 1 of the forward pass, which rebuild clipped highlights: gain · (u + m (max(u) − u)) with
+/// u = min(v · balance, 1 / gain) and m = clamp01((Σ min(u, 1) − 2.9) / 0.1)², v in [0,1]. Where all channels are
+/// clipped or nearly white, they are as bright as the brightest, so white stays white where a gain below 1 would show
+/// by how much each was clipped.
+void rebuild_highlights(Planes in, Planes out, std::size_t count, const float balance[3], float gain);
 
 /// Interleaved RGB to planes, and back. Exactly `count` pixels of the interleaved side are touched.
 void split_channels(const float* rgb, Planes out, std::size_t count);
@@ -42,6 +47,7 @@ void power(Planes in, Planes out, std::size_t count, float exponent, float floor
 void color_transform(Planes in, Planes out, std::size_t count, const Matrix3& matrix);
 void multiply(Planes in, Planes out, std::size_t count, const float gains[3]);
 void inverse_gain(Planes in, Planes out, std::size_t count, const float scales[3]);
+void rebuild_highlights(Planes in, Planes out, std::size_t count, const float balance[3], float gain);
 } // namespace scalar
 
 } // namespace srisp

@@ -53,7 +53,7 @@ Named with_missing_parts(Named parameters, const ModelSettings& settings)
 void describe_model(const ModelSettings& settings, std::map<std::string, std::string>& metadata)
 {
     const ModelSettings full = full_settings(settings);
-    metadata["format"] = full.anchor_network ? "srisp-5" : "srisp-1";
+    metadata["format"] = full.anchor_network ? "srisp-6" : "srisp-1";
     metadata["kernel_size"] = full.kernel_size;
     metadata["dictionary_size"] = std::to_string(full.dictionary_size);
     metadata["encoder_input"] = full.encoder_input;

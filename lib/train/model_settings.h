@@ -42,8 +42,8 @@ struct ModelSettings {
         v.integer("unet_channels", unet_channels, 4, 128, "of the first level of the U-Net");
     }
 
-    /// Whether no white-balance gain is below 1, as in srisp-5: a camera's clipped white is white then. What is left of
-    /// the gains is the global one's. For resolved settings.
+    /// Whether no white-balance gain is below 1 and global gains below 1 rebuild clipped highlights, as in srisp-6: a
+    /// camera's clipped white is white then. What is left of the gains is the global one's. For resolved settings.
     bool white_stays_white() const { return anchor_network && gain == "separate"; }
 
     /// Without what needs something that is off, and as `mbispld` fixes them: gain and white balance in one dictionary,

@@ -267,7 +267,7 @@ torch::Tensor Network::apply_reverse(const torch::Tensor& image, const Choice& c
 
 torch::Tensor Network::process(const torch::Tensor& raw, const Choice& choice)
 {
-    return forward_pipeline(raw, choice);
+    return forward_pipeline(raw, choice, m_settings.white_stays_white());
 }
 
 std::vector<torch::Tensor> Network::dictionary_parameters()

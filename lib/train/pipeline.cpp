@@ -17,10 +17,12 @@ torch::Tensor reverse_pipeline(const torch::Tensor& source, const Choice& choice
     return inverse_gain(v, choice.gain.unsqueeze(1)).clamp(0, 1);
 }
 
-torch::Tensor forward_pipeline(const torch::Tensor& raw, const Choice& choice)
+torch::Tensor forward_pipeline(const torch::Tensor& raw, const Choice& choice, bool white_stays_white)
 {
-    torch::Tensor v = (raw * choice.gain.view({ -1, 1, 1, 1 })).clamp(0, 1);
-    v = (v * choice.white_balance.view({ -1, 3, 1, 1 })).clamp(0, 1);
+    const torch::Tensor gain = choice.gain.view({ -1, 1, 1, 1 }), balance = choice.white_balance.view({ -1, 3, 1, 1 });
+    torch::Tensor v = ((raw * gain).clamp(0, 1) * balance).clamp(0, 1);
+    if (white_stays_white)
+        v = torch::where(gain < 1, rebuilt_highlights(raw * balance, gain), v);
     v = color_transform(v, choice.color);
     v = power(v, choice.gamma.reciprocal());
     if (!choice.tone_forward_weight.empty())

@@ -71,6 +71,13 @@ torch::Tensor inverse_gain_candidates(const torch::Tensor& image, const torch::T
     return image.unsqueeze(1) * scale + preserved_highlights(image).unsqueeze(1) * torch::relu(1 - scale);
 }
 
+torch::Tensor rebuilt_highlights(const torch::Tensor& balanced, const torch::Tensor& gain)
+{
+    const torch::Tensor u = torch::minimum(balanced, gain.reciprocal());
+    const torch::Tensor mask = ((u.clamp_max(1).sum(1, true) - 2.9) * 10).clamp(0, 1).square();
+    return (gain * (u + mask * (u.amax(1, true) - u))).clamp(0, 1);
+}
+
 torch::Tensor perceptual(const torch::Tensor& linear)
 {
     return torch::exp(torch::log(linear.clamp_min(kPerceptualFloor)) * (1 / 2.2)) - 0.3;

@@ -26,6 +26,8 @@ torch::Tensor color_candidates(const torch::Tensor& image, const torch::Tensor& 
 torch::Tensor inverse_gain(const torch::Tensor& image, const torch::Tensor& gains);
 /// The same for K candidates; gains [N, K, 1] or [N, K, 3].
 torch::Tensor inverse_gain_candidates(const torch::Tensor& image, const torch::Tensor& gains);
+/// Gain < 1 after the white balance, which rebuilds clipped highlights (lib/src/pointwise.h); gain [N, 1, 1, 1].
+torch::Tensor rebuilt_highlights(const torch::Tensor& balanced, const torch::Tensor& gain);
 
 /// max(v, 1e-5)^(1/2.2) − 0.3, which brings linear images to a like scale for the encoders.
 torch::Tensor perceptual(const torch::Tensor& linear);

@@ -9,6 +9,8 @@
 
 #include "inverse_gain_table.h"
 #include "matrix3.h"
+#include "model_data.h"
+#include "rebuilt_highlights_table.h"
 
 namespace srisp {
 
@@ -50,13 +52,20 @@ Operators reverse_operators(const Parameters& p, Cube tone)
     return operators;
 }
 
-Operators forward_operators(const Parameters& p, Cube tone)
+Operators forward_operators(const Parameters& p, Cube tone, bool rebuilds_highlights)
 {
-    return { Clamp{ 0, 1 },           diagonal(p.gain, p.gain, p.gain),
-             Clamp{ 0, 1 },           diagonal(p.white_balance[0], p.white_balance[1], p.white_balance[2]),
-             Clamp{ 0, 1 },           affine(p.color),
-             Clamp{ kGammaFloor, 1 }, Power{ 1 / p.gamma },
-             std::move(tone),         Clamp{ 0, 1 } };
+    const Affine balance = diagonal(p.white_balance[0], p.white_balance[1], p.white_balance[2]);
+    Operators operators{ Clamp{ 0, 1 } };
+    if (rebuilds_highlights) {
+        operators.push_back(balance);
+        append_rebuilt_highlights(operators, p.gain);
+    } else {
+        operators.insert(operators.end(), { diagonal(p.gain, p.gain, p.gain), Clamp{ 0, 1 }, balance, Clamp{ 0, 1 } });
+    }
+    operators.insert(operators.end(), { affine(p.color), Clamp{ kGammaFloor, 1 }, Power{ 1 / p.gamma } });
+    operators.push_back(std::move(tone));
+    operators.push_back(Clamp{ 0, 1 });
+    return operators;
 }
 
 } // namespace
@@ -70,8 +79,9 @@ Expected<Operators> pipeline_operators(const Model& model, const Parameters& par
     auto tone = tone_cube(model, parameters, direction, lut_size);
     if (!tone)
         return tone.error();
-    return direction == Direction::reverse ? reverse_operators(parameters, std::move(*tone))
-                                           : forward_operators(parameters, std::move(*tone));
+    return direction == Direction::reverse
+               ? reverse_operators(parameters, std::move(*tone))
+               : forward_operators(parameters, std::move(*tone), model.data().rebuilds_highlights(parameters.gain));
 }
 
 } // namespace srisp

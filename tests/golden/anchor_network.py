@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""An independent implementation, in NumPy, of what model format srisp-5 adds to srisp-1: the quantile features, the
-match features, the network that corrects the anchor, and white-balance gains of at least 1. Writes anchor_network.json,
-which the tests compare the library with.
+"""An independent implementation, in NumPy, of what model format srisp-6 adds to srisp-1: the quantile features, the
+match features, the network that corrects the anchor, white-balance gains of at least 1, and clipped highlights rebuilt
+where the global gain is below 1. Writes anchor_network.json, which the tests compare the library with.
 
     python3 tests/golden/anchor_network.py GOLDEN > tests/golden/anchor_network.json
 
@@ -163,6 +163,21 @@ def gains(model, golden, photo, base):
     return balance, block_weights(model, "gain", fused, outputs) @ candidates
 
 
+def process_gains(raw, balance, gain):
+    """White balance and a gain below 1 of the forward pass; raw: [colours, 3]."""
+    balanced = np.minimum(raw * balance, 1 / gain)
+    near_white = np.clip((np.minimum(balanced, 1).sum(1, keepdims=True) - 2.9) / 0.1, 0, 1) ** 2
+    brightest = balanced.max(1, keepdims=True)
+    return gain * (balanced * (1 - near_white) + brightest * near_white)
+
+
+def clipped_colors():
+    """A sensor's greys and near greys up to three times its white: [colours, 3]."""
+    exposure, color = np.meshgrid(np.linspace(0, 3, 61), np.arange(3), indexing="ij")
+    tint = 1 + 0.1 * np.sin(5 * exposure + 2 * color)
+    return np.minimum(exposure * tint / np.array([2, 1, 1.25]), 1).astype(np.float32)
+
+
 golden, model = (load(f"{sys.argv[1]}/{name}_spatial.safetensors") for name in ("values", "model"))
 photo = golden["thumb.source"].reshape(256, 256, 3).astype(np.float64)
 source = np.maximum(photo, 1e-8) ** 2.2
@@ -182,6 +197,7 @@ json.dump(
         "base_gain": base.tolist(),
         "white_balance": white_balance.tolist(),
         "gain": [gain],
+        "process_gains": process_gains(clipped_colors(), np.array([2, 1, 1.25]), 0.6).ravel().tolist(),
     },
     sys.stdout,
     indent=1,

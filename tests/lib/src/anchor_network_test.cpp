@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What model format srisp-5 adds, against an independent implementation: tests/golden/anchor_network.py.
+// What model format srisp-6 adds, against an independent implementation: tests/golden/anchor_network.py.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +13,7 @@
 #include "image_compare.h"
 #include "match_features.h"
 #include "model_parser.h"
+#include "pointwise.h"
 #include "quantile_features.h"
 #include "random_model.h"
 #include "selection.h"
@@ -146,6 +147,24 @@ TEST_CASE("match features of an image without pixels that weigh say that all shi
     }
 }
 
+TEST_CASE("a gain below 1 rebuilds clipped highlights")
+{
+    constexpr int colors = 61;
+    const float balance[] = { 2, 1, 1.25f };
+    std::vector<float> rgb(3 * colors + kRowSlack * 3), result;
+    const Planes planes{ rgb.data(), colors + std::ptrdiff_t(kRowSlack) };
+    for (int i = 0; i < colors; ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double exposure = 0.05 * i, tint = 1 + 0.1 * std::sin(5 * exposure + 2 * c);
+            planes.plane(c)[i] = static_cast<float>(std::min(exposure * tint / balance[c], 1.0));
+        }
+    rebuild_highlights(planes, planes, colors, balance, 0.6f);
+    for (int i = 0; i < colors; ++i)
+        for (int c = 0; c < 3; ++c)
+            result.push_back(planes.plane(c)[i]);
+    check_near(result, "process_gains");
+}
+
 TEST_CASE("the anchor's network corrects the golden model's gains, and no white-balance gain is below 1")
 {
     SKIP_WITHOUT_SHARED("golden/model_spatial.safetensors");
@@ -155,7 +174,7 @@ TEST_CASE("the anchor's network corrects the golden model's gains, and no white-
     Expected<SafeTensors> golden = parse_safetensors(*bytes, path);
     REQUIRE(golden);
     ModelFile file{ golden->metadata, golden->tensors };
-    file.metadata["format"] = "srisp-5";
+    file.metadata["format"] = "srisp-6";
     const std::int64_t sizes[] = { 24 + 2 * kQuantileFeatures + kMatchFeatures, 256, 256, 256, 3 };
     for (int l = 0; l < 4; ++l) {
         const std::string layer = "anchor_network." + std::to_string(l);
@@ -186,12 +205,12 @@ TEST_CASE("the anchor's network corrects the golden model's gains, and no white-
 TEST_CASE("a network without an anchor, or of another shape, is refused")
 {
     ModelFile file = random_model(3, 1);
-    file.metadata["format"] = "srisp-5";
+    file.metadata["format"] = "srisp-6";
     Expected<std::unique_ptr<ModelData>> model = parse_model(file.bytes(), "m");
     REQUIRE(!model);
     CHECK(model.error().message == "m: has no tensor 'anchor_network.0.weight'");
     file.metadata["anchor"] = "0";
     model = parse_model(file.bytes(), "m");
     REQUIRE(!model);
-    CHECK(model.error().message == "m: metadata 'format' is srisp-5 but 'anchor' is 0; its network needs the anchor");
+    CHECK(model.error().message == "m: metadata 'format' is srisp-6 but 'anchor' is 0; its network needs the anchor");
 }

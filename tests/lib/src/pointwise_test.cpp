@@ -68,6 +68,10 @@ TEST_CASE("colour transform, gains and inverse gains are the same on every instr
     check_same(
         0, 1.3f, 2e-6, [&](auto... a) { inverse_gain(a..., scales); },
         [&](auto... a) { scalar::inverse_gain(a..., scales); });
+    for (const float low : { 0.0f, 0.9f })
+        check_same(
+            low, 1, 2e-6, [&](auto... a) { rebuild_highlights(a..., gains, 0.7f); },
+            [&](auto... a) { scalar::rebuild_highlights(a..., gains, 0.7f); });
 }
 
 TEST_CASE("power is within 1e-6 (relative) of the exact value for every exponent of the pipeline")
@@ -120,6 +124,28 @@ TEST_CASE("the highlight-preserving inverse gain has the published values and ke
         for (int c = 0; c < 3; ++c)
             for (int x = 0; x < 3; ++x)
                 CHECK(image.planes().plane(c)[x] == doctest::Approx(expected[x][c]).epsilon(2e-6));
+    });
+}
+
+TEST_CASE("greys that a RAW has clipped in two channels are rebuilt from the third, and other colours left alone")
+{
+    // What a sensor records of greys, 1 / 0.6 the brightest, and of an orange.
+    const float balance[] = { 2.0f, 1.0f, 1.25f }, gain = 0.6f;
+    constexpr int kGreys = 101;
+    TestPlanes in{ kGreys + 1 };
+    for (int c = 0; c < 3; ++c) {
+        for (int x = 0; x < kGreys; ++x)
+            in.planes().plane(c)[x] = std::min(x / (kGreys - 1.0f) / gain / balance[c], 1.0f);
+        in.planes().plane(c)[kGreys] = (c == 0 ? 0.8f : 0.3f * (2 - c)) / balance[c];
+    }
+    on_each_instruction_set([&] {
+        TestPlanes out{ in.count };
+        rebuild_highlights(in.planes(), out.planes(), in.count, balance, gain);
+        for (int c = 0; c < 3; ++c) {
+            for (int x = 0; x < kGreys; ++x)
+                CHECK(out.planes().plane(c)[x] == doctest::Approx(x / (kGreys - 1.0)).epsilon(1e-5));
+            CHECK(out.planes().plane(c)[kGreys] == doctest::Approx(gain * (c == 0 ? 0.8 : 0.3 * (2 - c))));
+        }
     });
 }
 
