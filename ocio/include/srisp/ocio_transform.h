@@ -12,9 +12,10 @@
 
 // The pipeline of a pointwise model as transforms of OpenColorIO. `Direction::reverse` ("unprocess") takes
 // display-encoded sRGB to RAW-like camera RGB, `Direction::forward` ("process") back; values in [0,1], others are
-// clamped. Exact: exponent, colour matrix, gains of the forward pass, all clamps, and inverse gains of at least 1.
-// Tabulated: the tone map as unclamped v + φ(v), and the highlight-preserving inverse gains. The two directions are
-// made apart: OpenColorIO's own inverse of one of them is not the other. Nothing throws; threads: safe.
+// clamped. Exact: exponent, colour matrix, all clamps, and factors of at least 1. Tabulated: the tone map as unclamped
+// v + φ(v), the highlight-preserving inverse gains, and the forward gain below 1 that rebuilds clipped highlights. The
+// two directions are made apart: OpenColorIO's own inverse of one of them is not the other. Nothing throws; threads:
+// safe.
 
 namespace srisp {
 
