@@ -4,30 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corners.h"
+
 namespace srisp {
 
 namespace {
 
 // 33 points: 31 cells of 0.0032 between grey 0.9 and 1, where m bends; linear interpolation errs by h²/8 · 240 = 3e-4.
 constexpr int kPoints = 33, kCells = kPoints - 1;
-// Points of the curves per 0.1 of grey. GPUs interpolate textures with 8 bits between two points.
-constexpr int kPointsPerTenth = 64;
-
-/// A monotonic curve of straight lines over [0,1], and its inverse. Corners lie on points of the sampled curve.
-struct Corners {
-    std::vector<double> from, to;
-
-    static double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at)
-    {
-        std::size_t i = 1;
-        while (i + 1 < x.size() && at > x[i])
-            ++i;
-        return y[i - 1] + (y[i] - y[i - 1]) * (at - x[i - 1]) / (x[i] - x[i - 1]);
-    }
-    double operator()(double at) const { return interpolate(from, to, at); }
-    double inverse(double at) const { return interpolate(to, from, at); }
-};
-
 /// 0 … 0.9 is one cell, and so is what lies above 1 (`tenths` · 0.1 at the end): there m is constant.
 Corners grey_corners(int tenths)
 {

@@ -58,7 +58,7 @@ Operators forward_operators(const Parameters& p, Cube tone, bool rebuilds_highli
     Operators operators{ Clamp{ 0, 1 } };
     if (rebuilds_highlights) {
         operators.push_back(balance);
-        append_rebuilt_highlights(operators, p.gain);
+        append_rebuilt_highlights(operators, p.gain, *std::max_element(p.white_balance.begin(), p.white_balance.end()));
     } else {
         operators.insert(operators.end(), { diagonal(p.gain, p.gain, p.gain), Clamp{ 0, 1 }, balance, Clamp{ 0, 1 } });
     }

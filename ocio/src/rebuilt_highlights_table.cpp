@@ -5,35 +5,14 @@
 #include <array>
 #include <cmath>
 
+#include "corners.h"
+
 namespace srisp {
 
 namespace {
 
 // 65 points: one cell from 0 to 0.9, 47 to 1, 16 above.
-constexpr int kPoints = 65, kFine = 47, kCells = kPoints - 1;
-// Points of the curves per 0.1. GPUs interpolate textures with 8 bits between two points.
-constexpr int kPointsPerTenth = 64;
-
-/// Values on the table's points, in units of the value, and between them the inverse: where on [0,1] a value lies.
-struct Axis {
-    double end; ///< the largest value
-
-    double value(int point) const
-    {
-        if (point <= 1)
-            return 0.9 * point;
-        return point <= kFine + 1 ? 0.9 + 0.1 * (point - 1) / kFine
-                                  : 1 + (end - 1) * (point - kFine - 1) / (kCells - kFine - 1);
-    }
-    double place(double value) const
-    {
-        if (value <= 0.9)
-            return value / 0.9 / kCells;
-        return (value <= 1 ? 1 + (value - 0.9) / 0.1 * kFine
-                           : kFine + 1 + (value - 1) / (end - 1) * (kCells - kFine - 1)) /
-               kCells;
-    }
-};
+constexpr int kPoints = 65, kCells = kPoints - 1, kFine = 47;
 
 std::array<double, 3> rebuilt(const std::array<double, 3>& u)
 {
@@ -50,25 +29,28 @@ std::array<double, 3> rebuilt(const std::array<double, 3>& u)
 
 } // namespace
 
-void append_rebuilt_highlights(Operators& operators, double gain)
+void append_rebuilt_highlights(Operators& operators, double gain, double most)
 {
     // 0.9 and 1 are to lie on points of the curves.
-    const int tenths = std::max(11, int(std::ceil(10 / gain - 1e-6)));
-    const Axis axis{ tenths / 10.0 };
+    const int tenths = std::max(11, int(std::ceil(10 * std::min(1 / gain, most) - 1e-6)));
+    const Corners corners{ { 0, 9.0 / tenths, 10.0 / tenths, 1 }, { 0, 1.0 / kCells, (1.0 + kFine) / kCells, 1 } };
     operators.push_back(Clamp{ 0, static_cast<float>(1 / gain) });
-    operators.push_back(diagonal(1 / axis.end, 1 / axis.end, 1 / axis.end));
+    operators.push_back(diagonal(10.0 / tenths, 10.0 / tenths, 10.0 / tenths));
 
     Curves curves{ tenths * kPointsPerTenth + 1, {} };
     for (int i = 0; i < curves.size; ++i)
-        curves.rgb.insert(curves.rgb.end(), 3, static_cast<float>(axis.place(0.1 * i / kPointsPerTenth)));
+        curves.rgb.insert(curves.rgb.end(), 3, static_cast<float>(corners(double(i) / (curves.size - 1))));
     operators.push_back(std::move(curves));
 
+    std::array<double, kPoints> values;
+    for (int i = 0; i < kPoints; ++i)
+        values[i] = 0.1 * tenths * corners.inverse(double(i) / kCells);
     Cube cube{ kPoints, {} };
     cube.rgb.reserve(std::size_t(3) * kPoints * kPoints * kPoints);
     for (int r = 0; r < kPoints; ++r)
         for (int g = 0; g < kPoints; ++g)
             for (int b = 0; b < kPoints; ++b)
-                for (const double value : rebuilt({ axis.value(r), axis.value(g), axis.value(b) }))
+                for (const double value : rebuilt({ values[r], values[g], values[b] }))
                     cube.rgb.push_back(static_cast<float>(gain * value));
     operators.push_back(std::move(cube));
     operators.push_back(Clamp{ 0, 1 });
