@@ -58,7 +58,7 @@ struct ModelData {
     bool white_stays_white() const { return !anchor_network.empty(); }
     /// Whether the forward pass sets white that the RAW has clipped in some channels to the brightest one: with gains
     /// of at least 1 it is clipped in all of them anyway.
-    bool rebuilds_highlights(float global_gain) const { return white_stays_white() && global_gain < 1; }
+    bool rebuilds_highlights(float global_gain) const { return white_stays_white() && 1 / global_gain > 1; }
 };
 
 } // namespace srisp

@@ -163,14 +163,15 @@ void rebuild_highlights(Planes in, Planes out, std::size_t count, const float ba
 {
     const D d;
     const V one = hn::Set(d, 1.0f), knee = hn::Set(d, 2.9f), ten = hn::Set(d, 10.0f);
-    const V g = hn::Set(d, gain), most = hn::Set(d, 1 / gain);
+    const V g = hn::Set(d, gain), most = hn::Set(d, 1 / gain), per_rest = hn::Set(d, 1 / (1 / gain - 1));
     for_each_vector(count, [&](std::size_t x) {
         V u[3];
         for (int c = 0; c < 3; ++c)
             u[c] = hn::Min(hn::Mul(hn::LoadU(d, in.plane(c) + x), hn::Set(d, balance[c])), most);
         const V sum = hn::Add(hn::Add(hn::Min(u[0], one), hn::Min(u[1], one)), hn::Min(u[2], one));
-        const V above = clamped01(hn::Mul(hn::Sub(sum, knee), ten)), m = hn::Mul(above, above);
-        const V top = hn::Max(hn::Max(u[0], u[1]), u[2]);
+        const V top = hn::Max(hn::Max(u[0], u[1]), hn::Max(u[2], one));
+        const V near_white = clamped01(hn::Mul(hn::Sub(sum, knee), ten));
+        const V root = hn::Mul(near_white, hn::Mul(hn::Sub(top, one), per_rest)), m = hn::Mul(root, root);
         for (int c = 0; c < 3; ++c)
             hn::StoreU(clamped01(hn::Mul(g, hn::MulAdd(m, hn::Sub(top, u[c]), u[c]))), d, out.plane(c) + x);
     });
@@ -297,13 +298,13 @@ void inverse_gain(Planes in, Planes out, std::size_t count, const float scales[3
 void rebuild_highlights(Planes in, Planes out, std::size_t count, const float balance[3], float gain)
 {
     for (std::size_t x = 0; x < count; ++x) {
-        float u[3], sum = 0, top = 0;
+        float u[3], sum = 0, top = 1;
         for (int c = 0; c < 3; ++c) {
             u[c] = std::min(in.plane(c)[x] * balance[c], 1 / gain);
             sum += std::min(u[c], 1.0f);
             top = std::max(top, u[c]);
         }
-        const float above = clamped01((sum - 2.9f) * 10), m = above * above;
+        const float root = clamped01((sum - 2.9f) * 10) * (top - 1) / (1 / gain - 1), m = root * root;
         for (int c = 0; c < 3; ++c)
             out.plane(c)[x] = clamped01(gain * (u[c] + m * (top - u[c])));
     }

@@ -32,9 +32,9 @@ void multiply(Planes in, Planes out, std::size_t count, const float gains[3]);
 /// m = clamp01((mean(v) − 0.9) / 0.1)².
 void inverse_gain(Planes in, Planes out, std::size_t count, const float scales[3]);
 /// White balance and gain < 1 of the forward pass, which rebuild clipped highlights: gain · (u + m (max(u) − u)) with
-/// u = min(v · balance, 1 / gain) and m = clamp01((Σ min(u, 1) − 2.9) / 0.1)², v in [0,1]. Where all channels are
-/// clipped or nearly white, they are as bright as the brightest, so white stays white where a gain below 1 would show
-/// by how much each was clipped.
+/// u = min(v · balance, 1 / gain), v in [0,1], m = (clamp01((Σ min(u, 1) − 2.9) / 0.1) · b)² and
+/// b = max(max(u) − 1, 0) / (1 / gain − 1). Where all channels are clipped or nearly white and the brightest shows
+/// white (b = 1), all do: a gain below 1 would show how much of each was clipped. Less bright colours change less.
 void rebuild_highlights(Planes in, Planes out, std::size_t count, const float balance[3], float gain);
 
 /// Interleaved RGB to planes, and back. Exactly `count` pixels of the interleaved side are touched.

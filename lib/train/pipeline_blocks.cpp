@@ -73,9 +73,11 @@ torch::Tensor inverse_gain_candidates(const torch::Tensor& image, const torch::T
 
 torch::Tensor rebuilt_highlights(const torch::Tensor& balanced, const torch::Tensor& gain)
 {
-    const torch::Tensor u = torch::minimum(balanced, gain.reciprocal());
-    const torch::Tensor mask = ((u.clamp_max(1).sum(1, true) - 2.9) * 10).clamp(0, 1).square();
-    return (gain * (u + mask * (u.amax(1, true) - u))).clamp(0, 1);
+    const torch::Tensor most = gain.clamp_max(0.999999).reciprocal(), u = torch::minimum(balanced, most);
+    const torch::Tensor top = u.amax(1, true).clamp_min(1);
+    const torch::Tensor near_white = ((u.clamp_max(1).sum(1, true) - 2.9) * 10).clamp(0, 1);
+    const torch::Tensor share = (near_white * (top - 1) / (most - 1)).square();
+    return (gain * (u + share * (top - u))).clamp(0, 1);
 }
 
 torch::Tensor perceptual(const torch::Tensor& linear)

@@ -11,19 +11,21 @@ namespace srisp {
 
 namespace {
 
-// 65 points: one cell from 0 to 0.9, 47 to 1, 16 above.
-constexpr int kPoints = 65, kCells = kPoints - 1, kFine = 47;
+// 65 points: one cell from 0 to 0.9, 24 to 1, 39 above.
+constexpr int kPoints = 65, kCells = kPoints - 1, kFine = 24;
 
-std::array<double, 3> rebuilt(const std::array<double, 3>& u)
+/// The formula, for values of at most 1 / gain.
+std::array<double, 3> rebuilt(const std::array<double, 3>& u, double gain)
 {
-    double sum = 0;
-    for (const double value : u)
+    double sum = 0, top = 1;
+    for (const double value : u) {
         sum += std::min(value, 1.0);
-    const double above = std::clamp((sum - 2.9) / 0.1, 0.0, 1.0), m = above * above;
-    const double top = std::max({ u[0], u[1], u[2] });
+        top = std::max(top, value);
+    }
+    const double root = std::clamp((sum - 2.9) / 0.1, 0.0, 1.0) * (top - 1) / (1 / gain - 1), m = root * root;
     std::array<double, 3> result;
     for (int c = 0; c < 3; ++c)
-        result[c] = u[c] + m * (top - u[c]);
+        result[c] = gain * (u[c] + m * (top - u[c]));
     return result;
 }
 
@@ -50,8 +52,8 @@ void append_rebuilt_highlights(Operators& operators, double gain, double most)
     for (int r = 0; r < kPoints; ++r)
         for (int g = 0; g < kPoints; ++g)
             for (int b = 0; b < kPoints; ++b)
-                for (const double value : rebuilt({ values[r], values[g], values[b] }))
-                    cube.rgb.push_back(static_cast<float>(gain * value));
+                for (const double value : rebuilt({ values[r], values[g], values[b] }, gain))
+                    cube.rgb.push_back(static_cast<float>(value));
     operators.push_back(std::move(cube));
     operators.push_back(Clamp{ 0, 1 });
 }

@@ -166,9 +166,10 @@ def gains(model, golden, photo, base):
 def process_gains(raw, balance, gain):
     """White balance and a gain below 1 of the forward pass; raw: [colours, 3]."""
     balanced = np.minimum(raw * balance, 1 / gain)
-    near_white = np.clip((np.minimum(balanced, 1).sum(1, keepdims=True) - 2.9) / 0.1, 0, 1) ** 2
-    brightest = balanced.max(1, keepdims=True)
-    return gain * (balanced * (1 - near_white) + brightest * near_white)
+    brightest = np.maximum(balanced.max(1, keepdims=True), 1)
+    near_white = np.clip((np.minimum(balanced, 1).sum(1, keepdims=True) - 2.9) / 0.1, 0, 1)
+    share = (near_white * (brightest - 1) / (1 / gain - 1)) ** 2
+    return gain * (balanced * (1 - share) + brightest * share)
 
 
 def clipped_colors():

@@ -127,7 +127,7 @@ TEST_CASE("the highlight-preserving inverse gain has the published values and ke
     });
 }
 
-TEST_CASE("greys that a RAW has clipped in two channels are rebuilt from the third, and other colours left alone")
+TEST_CASE("white that a RAW has clipped is rebuilt, greys the more the brighter, and other colours are left alone")
 {
     // What a sensor records of greys, 1 / 0.6 the brightest, and of an orange.
     const float balance[] = { 2.0f, 1.0f, 1.25f }, gain = 0.6f;
@@ -142,9 +142,14 @@ TEST_CASE("greys that a RAW has clipped in two channels are rebuilt from the thi
         TestPlanes out{ in.count };
         rebuild_highlights(in.planes(), out.planes(), in.count, balance, gain);
         for (int c = 0; c < 3; ++c) {
-            for (int x = 0; x < kGreys; ++x)
-                CHECK(out.planes().plane(c)[x] == doctest::Approx(x / (kGreys - 1.0)).epsilon(1e-5));
-            CHECK(out.planes().plane(c)[kGreys] == doctest::Approx(gain * (c == 0 ? 0.8 : 0.3 * (2 - c))));
+            const float* const result = out.planes().plane(c);
+            for (int x = 0; x < kGreys; ++x) {
+                const double grey = x / (kGreys - 1.0), above = std::max(0.0, (grey - 0.6) / 0.4); // 0.6: green clips
+                const double clipped = std::min(grey, gain * (c == 0 ? 2 : c == 1 ? 1 : 1.25));
+                CHECK(result[x] == doctest::Approx(clipped + above * above * (grey - clipped)).epsilon(1e-5));
+            }
+            CHECK(result[kGreys - 1] == doctest::Approx(1));
+            CHECK(result[kGreys] == doctest::Approx(gain * (c == 0 ? 0.8 : 0.3 * (2 - c))));
         }
     });
 }
