@@ -167,7 +167,7 @@ void rebuild_highlights(Planes in, Planes out, std::size_t count, const float ba
     for_each_vector(count, [&](std::size_t x) {
         V u[3];
         for (int c = 0; c < 3; ++c)
-            u[c] = hn::Min(hn::Mul(hn::LoadU(d, in.plane(c) + x), hn::Set(d, balance[c])), most);
+            u[c] = hn::Min(hn::Mul(clamped01(hn::LoadU(d, in.plane(c) + x)), hn::Set(d, balance[c])), most);
         const V sum = hn::Add(hn::Add(hn::Min(u[0], one), hn::Min(u[1], one)), hn::Min(u[2], one));
         const V top = hn::Max(hn::Max(u[0], u[1]), hn::Max(u[2], one));
         const V near_white = clamped01(hn::Mul(hn::Sub(sum, knee), ten));
@@ -300,7 +300,7 @@ void rebuild_highlights(Planes in, Planes out, std::size_t count, const float ba
     for (std::size_t x = 0; x < count; ++x) {
         float u[3], sum = 0, top = 1;
         for (int c = 0; c < 3; ++c) {
-            u[c] = std::min(in.plane(c)[x] * balance[c], 1 / gain);
+            u[c] = std::min(clamped01(in.plane(c)[x]) * balance[c], 1 / gain);
             sum += std::min(u[c], 1.0f);
             top = std::max(top, u[c]);
         }

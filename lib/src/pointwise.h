@@ -32,7 +32,7 @@ void multiply(Planes in, Planes out, std::size_t count, const float gains[3]);
 /// m = clamp01((mean(v) − 0.9) / 0.1)².
 void inverse_gain(Planes in, Planes out, std::size_t count, const float scales[3]);
 /// White balance and gain < 1 of the forward pass, which rebuild clipped highlights: gain · (u + m (max(u) − u)) with
-/// u = min(v · balance, 1 / gain), v in [0,1], m = (clamp01((Σ min(u, 1) − 2.9) / 0.1) · b)² and
+/// u = min(clamp01(v) · balance, 1 / gain), m = (clamp01((Σ min(u, 1) − 2.9) / 0.1) · b)² and
 /// b = max(max(u) − 1, 0) / (1 / gain − 1). Where all channels are clipped or nearly white and the brightest shows
 /// white (b = 1), all do: a gain below 1 would show how much of each was clipped. Less bright colours change less.
 void rebuild_highlights(Planes in, Planes out, std::size_t count, const float balance[3], float gain);
