@@ -73,6 +73,7 @@ torch::Tensor inverse_gain_candidates(const torch::Tensor& image, const torch::T
 
 torch::Tensor rebuilt_highlights(const torch::Tensor& balanced, const torch::Tensor& gain)
 {
+    // Results with other gains are not used, but their gradients must be finite.
     const torch::Tensor most = gain.clamp_max(0.999999).reciprocal(), u = torch::minimum(balanced, most);
     const torch::Tensor top = u.amax(1, true).clamp_min(1);
     const torch::Tensor near_white = ((u.clamp_max(1).sum(1, true) - 2.9) * 10).clamp(0, 1);

@@ -12,6 +12,7 @@ namespace {
 
 // 33 points: 31 cells of 0.0032 between grey 0.9 and 1, where m bends; linear interpolation errs by h²/8 · 240 = 3e-4.
 constexpr int kPoints = 33, kCells = kPoints - 1;
+
 /// 0 … 0.9 is one cell, and so is what lies above 1 (`tenths` · 0.1 at the end): there m is constant.
 Corners grey_corners(int tenths)
 {

@@ -14,7 +14,7 @@ namespace {
 // 65 points: one cell from 0 to 0.9, 24 to 1, 39 above.
 constexpr int kPoints = 65, kCells = kPoints - 1, kFine = 24;
 
-/// The formula, for values of at most 1 / gain.
+/// The formula without the limit 1 / gain: points beyond it continue it, so that the cell with the limit has no bend.
 std::array<double, 3> rebuilt(const std::array<double, 3>& u, double gain)
 {
     double sum = 0, top = 1;
