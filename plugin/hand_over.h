@@ -8,7 +8,7 @@
 #include <OpenImageIO/imageio.h>
 #include <srisp/expected.h>
 
-#include "pixel_source.h"
+#include "photo/pixel_source.h"
 
 // The hand-over: our writer keeps an image in the memory of the process and leaves a stub file; our reader finds the
 // image by the stub. srisptool makes the folder and the job files; a stub `T/1.0007.srisp` belongs to job `T/1.json`,

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <srisp/metadata.h>
 
+#include "base/text_file.h"
 #include "hand_over.h"
-#include "result_image.h"
-#include "text_file.h"
+#include "result/result_image.h"
 
 namespace srisp {
 

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
+#include "base/text_file.h"
 #include "hand_over.h"
 #include "query.h"
-#include "text_file.h"
 
 namespace srisp {
 
@@ -91,6 +91,8 @@ Expected<std::unique_ptr<ResultImage>> open_name(const std::string& name, const 
     }
     if (const Status applied = apply_settings(recipe, parts, config); !applied)
         return applied.error();
+    if (QueryName ours; parse_name(recipe.source, ours))
+        return Error{ "source '" + recipe.source + "': a recipe cannot be made from a recipe" };
     auto source = open_file_source(recipe.source, config);
     if (!source)
         return source.error();

@@ -7,7 +7,7 @@
 #include <OpenImageIO/imageio.h>
 #include <srisp/expected.h>
 
-#include "result_image.h"
+#include "result/result_image.h"
 
 namespace srisp {
 

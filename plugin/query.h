@@ -6,7 +6,7 @@
 #include <OpenImageIO/imageio.h>
 #include <srisp/expected.h>
 
-#include "recipe.h"
+#include "recipe/recipe.h"
 
 namespace srisp {
 

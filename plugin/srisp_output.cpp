@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <exception>
 
+#include "base/text_file.h"
 #include "job_actions.h"
 #include "open_name.h"
-#include "text_file.h"
 
 namespace srisp {
 

@@ -7,7 +7,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include "hand_over.h"
-#include "recipe.h"
+#include "recipe/recipe.h"
 
 namespace srisp {
 

@@ -6,8 +6,8 @@
 
 #include <doctest/doctest.h>
 
-#include "bf16_convolution.h"
 #include "force_targets.h"
+#include "kernels/bf16_convolution.h"
 
 /// Calls `body` once per instruction set that this machine has and the build contains, with dispatch forced to it.
 template<class Body> void on_each_instruction_set(Body body)

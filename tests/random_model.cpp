@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "half_float.h"
+#include "base/half_float.h"
 
 using srisp::Tensor;
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "safetensors.h"
+#include "model/safetensors.h"
 
 /// A small generator with the same numbers on every machine (splitmix64).
 class Random {

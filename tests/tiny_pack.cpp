@@ -5,8 +5,8 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "training_pack_writer.h"
-#include "xxh64.h"
+#include "base/xxh64.h"
+#include "pack/training_pack_writer.h"
 
 using namespace srisp;
 

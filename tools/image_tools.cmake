@@ -2,31 +2,19 @@
 # The tools that read images.
 set(SRISP_LIBEXEC_DIR ${CMAKE_INSTALL_LIBEXECDIR}/srisp)
 
-# A tool: srisp_image_tool(NAME LIBRARY SOURCE...). All but its main.cpp is NAME_parts, which the tests link, too.
-function(srisp_image_tool name library)
-    list(TRANSFORM ARGN PREPEND ${name}/)
-    add_library(${name}_parts STATIC ${ARGN})
-    target_link_libraries(${name}_parts PUBLIC srisp_tools_common ${library})
+# A tool: srisp_image_tool(NAME library...). All but its main.cpp is NAME_parts, which the tests link, too.
+function(srisp_image_tool name)
+    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+    list(FILTER sources EXCLUDE REGEX "/(main|output_guard)\\.cpp$")
+    add_library(${name}_parts STATIC ${sources})
+    target_link_libraries(${name}_parts PUBLIC srisp_tools_common ${ARGN})
     add_executable(${name} ${name}/main.cpp)
     target_link_libraries(${name} PRIVATE ${name}_parts)
     install(TARGETS ${name} DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
 # No OpenImageIO: it would cost its start-up time twice.
-srisp_image_tool(srisptool srisp_file
-    child_process.cpp
-    command_line.cpp
-    command_table.cpp
-    frame_pattern.cpp
-    help.cpp
-    inputs.cpp
-    job.cpp
-    modifiers.cpp
-    output_depth.cpp
-    rewriter.cpp
-    session.cpp
-    srisp_command.cpp
-    stock_oiiotool.cpp)
+srisp_image_tool(srisptool srisp_base)
 srisp_man_page(srisptool --srisp-help)
 
 # The same program under oiiotool's name, for those who put its folder in front of PATH.
@@ -45,39 +33,9 @@ if(SRISP_SANITIZE)
 endif()
 install(TARGETS output_guard DESTINATION ${CMAKE_INSTALL_LIBDIR}/srisp)
 
-srisp_image_tool(srisppack srisp_static
-    camera_folder.cpp
-    crops.cpp
-    csv_table.cpp
-    help.cpp
-    inputs.cpp
-    linear_set.cpp
-    manifest.cpp
-    options.cpp
-    pack_images.cpp
-    pack_run.cpp
-    photo_task.cpp
-    raw_task.cpp
-    reflectance.cpp
-    spectra.cpp
-    summary.cpp
-    unmasked_part.cpp)
+srisp_image_tool(srisppack srisp_static srisp_pack)
 srisp_man_page(srisppack --help)
 
-srisp_image_tool(srispbake srisp_ocio_static
-    bake.cpp
-    bake_errors.cpp
-    choice.cpp
-    config_entries.cpp
-    config_fragment.cpp
-    cube_file.cpp
-    help.cpp
-    linear_srgb.cpp
-    options.cpp
-    output_names.cpp
-    photo_sample.cpp
-    report.cpp
-    watch.cpp
-    yaml_sections.cpp)
-target_include_directories(srispbake_parts PUBLIC ${PROJECT_SOURCE_DIR}/lib/src ${PROJECT_SOURCE_DIR}/ocio/src)
+srisp_image_tool(srispbake srisp_ocio_static)
+target_include_directories(srispbake_parts PUBLIC ${PROJECT_SOURCE_DIR}/ocio/src)
 srisp_man_page(srispbake --help)

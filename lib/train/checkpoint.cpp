@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "safetensors.h"
-#include "safetensors_writer.h"
+#include "model/safetensors.h"
+#include "model/safetensors_writer.h"
 
 namespace srisp::train {
 

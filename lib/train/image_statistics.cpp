@@ -5,9 +5,9 @@
 
 #include <ATen/Parallel.h>
 
-#include "match_features.h"
-#include "quantile_features.h"
-#include "statistics.h"
+#include "features/match_features.h"
+#include "features/quantile_features.h"
+#include "features/statistics.h"
 
 namespace srisp::train {
 

@@ -5,11 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "half_float.h"
-#include "model_parser.h"
+#include "base/half_float.h"
+#include "model/model_parser.h"
+#include "model/safetensors.h"
+#include "model/safetensors_writer.h"
 #include "network.h"
-#include "safetensors.h"
-#include "safetensors_writer.h"
 #include "settings_json.h"
 
 namespace srisp::train {

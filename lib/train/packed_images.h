@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "pack/training_pack.h"
 #include "torch_api.h"
-#include "training_pack.h"
 
 namespace srisp::train {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "parameter_vector.h"
 
-#include "safetensors.h"
+#include "model/safetensors.h"
 
 namespace srisp::train {
 

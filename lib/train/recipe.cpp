@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <set>
 
-#include "near_names.h"
-#include "safetensors.h"
-#include "shared_folder.h"
-#include "strict_json.h"
+#include "base/near_names.h"
+#include "base/shared_folder.h"
+#include "base/strict_json.h"
+#include "model/safetensors.h"
 
 namespace srisp::train {
 

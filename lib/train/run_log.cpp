@@ -12,7 +12,7 @@
 #include <iterator>
 #include <memory>
 
-#include "output_file.h"
+#include "base/output_file.h"
 
 namespace srisp::train {
 

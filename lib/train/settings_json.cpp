@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "near_names.h"
+#include "base/near_names.h"
 
 namespace srisp::train {
 

@@ -5,9 +5,9 @@
 #include <array>
 #include <vector>
 
-#include "matrix3.h"
+#include "base/matrix3.h"
+#include "pack/training_pack.h"
 #include "random.h"
-#include "training_pack.h"
 
 namespace srisp::train {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "pack/training_pack.h"
 #include "torch_api.h"
-#include "training_pack.h"
 
 namespace srisp::train {
 

@@ -9,8 +9,8 @@
 #include "evaluation.h"
 #include "evenly_spread.h"
 #include "interleaved_images.h"
+#include "metrics/rank_correlation.h"
 #include "packed_images.h"
-#include "rank_correlation.h"
 #include "test_renderings.h"
 
 namespace srisp::train {

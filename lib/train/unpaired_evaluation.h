@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "matrix3.h"
+#include "base/matrix3.h"
 #include "scores.h"
 #include "test_scenes.h"
 #include "unprocessor.h"

@@ -11,8 +11,8 @@
 #include <srisp/reference.h>
 #include <srisp/select.h>
 
-#include "content_hash.h"
-#include "recently_kept.h"
+#include "base/content_hash.h"
+#include "base/recently_kept.h"
 
 namespace srisp {
 

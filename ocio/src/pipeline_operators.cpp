@@ -7,9 +7,9 @@
 #include <srisp/ocio_transform.h>
 #include <srisp/tone_map_values.h>
 
+#include "base/matrix3.h"
 #include "inverse_gain_table.h"
-#include "matrix3.h"
-#include "model_data.h"
+#include "model/model_data.h"
 #include "rebuilt_highlights_table.h"
 
 namespace srisp {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "bench_fixture.h"
-#include "bf16_convolution.h"
 #include "fma_peak.h"
+#include "kernels/bf16_convolution.h"
 #include "measuring.h"
 #include "require.h"
 

@@ -10,7 +10,7 @@
 #include <srisp/select.h>
 #include <srisp/thumbnail.h>
 
-#include "rank_correlation.h"
+#include "metrics/rank_correlation.h"
 #include "require.h"
 
 using namespace srisp;

@@ -11,8 +11,8 @@
 #include "measuring.h"
 #include "network.h"
 #include "optimizer.h"
+#include "pack/training_pack.h"
 #include "process_setup.h"
-#include "training_pack.h"
 #include "training_samples.h"
 
 using namespace srisp::train;

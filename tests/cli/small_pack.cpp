@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "training_pack_writer.h"
+#include "pack/training_pack_writer.h"
 
 using namespace srisp;
 

@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <random>
 
+#include "pack/training_pack.h"
 #include "tiny_pack.h"
 #include "tools/scratch_folder.h"
-#include "training_pack.h"
 
 using namespace srisp;
 

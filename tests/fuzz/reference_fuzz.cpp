@@ -8,12 +8,12 @@
 #include <iterator>
 #include <random>
 
-#include "dng_levels.h"
-#include "file_bytes.h"
-#include "float_dng.h"
-#include "lib/src/synthetic_dng.h"
-#include "libraw_decoder.h"
-#include "mosaic_thumbnail.h"
+#include "base/file_bytes.h"
+#include "lib/reference/synthetic_dng.h"
+#include "reference/dng_levels.h"
+#include "reference/float_dng.h"
+#include "reference/libraw_decoder.h"
+#include "reference/mosaic_thumbnail.h"
 
 using namespace srisp;
 

@@ -9,10 +9,10 @@
 #include "../common/failure.h"
 #include "../common/interrupt.h"
 #include "../common/require.h"
+#include "base/output_file.h"
 #include "clf_text.h"
 #include "cube_file.h"
 #include "ocio_group.h"
-#include "output_file.h"
 #include "pipeline_operators.h"
 
 namespace srisp {

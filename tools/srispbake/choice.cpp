@@ -9,8 +9,8 @@
 #include "../common/failure.h"
 #include "../common/interrupt.h"
 #include "../common/require.h"
-#include "file_bytes.h"
-#include "printed_parameters.h"
+#include "base/file_bytes.h"
+#include "parameters/printed_parameters.h"
 
 namespace srisp {
 

@@ -8,11 +8,11 @@
 #include <OpenColorIO/OpenColorIO.h>
 
 #include "../common/failure.h"
+#include "base/file_bytes.h"
+#include "base/output_file.h"
+#include "base/shared_folder.h"
 #include "config_entries.h"
-#include "file_bytes.h"
 #include "linear_srgb.h"
-#include "output_file.h"
-#include "shared_folder.h"
 #include "yaml_sections.h"
 
 namespace srisp {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "../common/failure.h"
-#include "matrix3.h"
-#include "near_names.h"
+#include "base/matrix3.h"
+#include "base/near_names.h"
 
 namespace srisp {
 

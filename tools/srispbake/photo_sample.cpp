@@ -7,7 +7,7 @@
 
 #include "../common/interrupt.h"
 #include "../common/require.h"
-#include "photo_file.h"
+#include "photo/photo_file.h"
 
 namespace srisp {
 

@@ -9,12 +9,12 @@
 #include "../common/require.h"
 #include "../common/run_tool.h"
 #include "evaluation.h"
+#include "model/model_files.h"
 #include "model_file.h"
-#include "model_files.h"
 #include "network.h"
+#include "pack/training_pack.h"
 #include "process_setup.h"
 #include "settings_json.h"
-#include "training_pack.h"
 
 using namespace srisp;
 using namespace srisp::train;

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "../common/failure.h"
-#include "near_names.h"
+#include "base/near_names.h"
 #include "reflectance.h"
 #include "spectra.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "training_pack_index.h"
+#include "pack/training_pack_index.h"
 
 namespace srisp {
 

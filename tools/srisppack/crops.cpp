@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "seeded_hash.h"
+#include "base/seeded_hash.h"
 
 namespace srisp {
 

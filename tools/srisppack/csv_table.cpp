@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "safetensors.h"
+#include "model/safetensors.h"
 
 #include "../common/failure.h"
 

@@ -8,10 +8,10 @@
 #include <OpenImageIO/strutil.h>
 
 #include "../common/failure.h"
-#include "camera_files.h"
+#include "base/file_bytes.h"
+#include "base/seeded_hash.h"
 #include "camera_folder.h"
-#include "file_bytes.h"
-#include "seeded_hash.h"
+#include "reference/camera_files.h"
 
 namespace srisp {
 

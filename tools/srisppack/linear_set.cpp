@@ -8,11 +8,11 @@
 #include <set>
 #include <sstream>
 
-#include "area_squasher.h"
+#include "base/half_float.h"
+#include "base/mapped_file.h"
 #include "crops.h"
-#include "half_float.h"
-#include "mapped_file.h"
-#include "safetensors_header.h"
+#include "model/safetensors_header.h"
+#include "thumbnail/area_squasher.h"
 #include "unmasked_part.h"
 
 namespace srisp {

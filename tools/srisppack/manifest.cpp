@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "near_names.h"
-#include "seeded_hash.h"
+#include "base/near_names.h"
+#include "base/seeded_hash.h"
 
 #include "../common/failure.h"
 #include "csv_table.h"

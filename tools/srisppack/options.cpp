@@ -3,7 +3,7 @@
 
 #include <srisp/image.h>
 
-#include "training_pack.h"
+#include "pack/training_pack.h"
 
 namespace srisp {
 

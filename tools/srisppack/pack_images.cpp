@@ -6,7 +6,7 @@
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
-#include "parallel.h"
+#include "base/parallel.h"
 
 namespace srisp {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "../common/progress_meter.h"
+#include "pack/training_pack_writer.h"
 #include "pack_task.h"
-#include "training_pack_writer.h"
 
 namespace srisp {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "training_pack_index.h"
+#include "pack/training_pack_index.h"
 #include <srisp/expected.h>
 
 namespace srisp {

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "../common/interrupt.h"
-#include "area_squasher.h"
-#include "photo_file.h"
+#include "photo/photo_file.h"
+#include "thumbnail/area_squasher.h"
 
 #include "crops.h"
 

@@ -7,10 +7,10 @@
 
 #include <srisp/reference.h>
 
-#include "area_squasher.h"
+#include "base/matrix3.h"
+#include "camera/daylight_matrix.h"
 #include "crops.h"
-#include "daylight_matrix.h"
-#include "matrix3.h"
+#include "thumbnail/area_squasher.h"
 
 namespace srisp {
 

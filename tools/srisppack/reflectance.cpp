@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "../common/failure.h"
-#include "matrix3.h"
+#include "base/matrix3.h"
 
 namespace srisp {
 

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "../common/failure.h"
+#include "base/strict_json.h"
 #include "csv_table.h"
-#include "safetensors.h"
-#include "strict_json.h"
+#include "model/safetensors.h"
 
 namespace srisp {
 

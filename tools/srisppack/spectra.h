@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "training_pack.h"
+#include "pack/training_pack.h"
 
 namespace srisp {
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "inputs.h"
+#include "pack/training_pack_index.h"
 #include "pack_images.h"
-#include "training_pack_index.h"
 
 namespace srisp {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include <model_files.h>
+#include "model/model_files.h"
 
 #include "../common/failure.h"
 

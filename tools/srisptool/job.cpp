@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <near_names.h>
+#include "base/near_names.h"
 
 #include "../common/failure.h"
 #include "frame_pattern.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "srisp_command.h"
 
-#include <near_names.h>
+#include "base/near_names.h"
 
 #include "../common/failure.h"
 #include "command_table.h"

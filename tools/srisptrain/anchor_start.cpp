@@ -6,8 +6,8 @@
 #include "../common/failure.h"
 #include "../common/require.h"
 #include "kept_pairs.h"
+#include "model/model_files.h"
 #include "model_file.h"
-#include "model_files.h"
 
 namespace srisp {
 

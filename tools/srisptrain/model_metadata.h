@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
+#include "pack/training_pack.h"
 #include "recipe.h"
-#include "training_pack.h"
 
 namespace srisp {
 

@@ -7,8 +7,8 @@
 
 #include "../common/failure.h"
 #include "../common/require.h"
+#include "model/model_files.h"
 #include "model_file.h"
-#include "model_files.h"
 #include "network.h"
 #include "process_setup.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "options.h"
+#include "pack/training_pack.h"
 #include "recipe.h"
-#include "training_pack.h"
 
 namespace srisp {
 

@@ -4,8 +4,8 @@
 #include "../common/failure.h"
 #include "../common/interrupt.h"
 #include "anchor_start.h"
+#include "base/output_file.h"
 #include "kept_pairs.h"
-#include "output_file.h"
 #include "output_folder.h"
 
 namespace srisp {

@@ -8,27 +8,13 @@
 #include <srisp/expected.h>
 #include <srisp/export.h>
 #include <srisp/image.h>
+#include <srisp/options.h>
 #include <srisp/parameters.h>
 
 namespace srisp {
 
 class Model;
 struct Pipeline;
-
-enum class Direction {
-    reverse, ///< display-encoded sRGB → RAW-like camera RGB ("unprocess")
-    forward  ///< RAW-like camera RGB → display-encoded sRGB ("process")
-};
-
-/// How the tone map of 3×3 kernels is computed; other blocks and kernels are the same in both.
-enum class Precision {
-    float32, ///< plain sums in float32
-    fast ///< by bf16 where the processor has AVX-512 BF16: on photos within 1e-3 of the above, some 1e-5 on average;
-         ///< elsewhere with fewer multiply-adds in float32: within 1e-4, 1e-6 on average
-};
-
-/// Reads "float32" or "fast"; an error names both.
-SRISP_API Expected<Precision> precision_from_name(const std::string& name);
 
 struct ApplyOptions {
     int threads = 0; ///< 0: all of OpenImageIO's threads; 1: the calling thread only

@@ -4,11 +4,11 @@
 #include <string>
 
 #include <OpenImageIO/imageio.h>
-#include <srisp/apply.h>
+#include <srisp/camera.h>
 #include <srisp/expected.h>
 #include <srisp/export.h>
+#include <srisp/options.h>
 #include <srisp/parameters.h>
-#include <srisp/reference.h>
 
 // What a result says of itself, in forms that survive OpenImageIO's EXR, TIFF, PNG and JPEG writers: ImageDescription
 // as one JSON line, and attributes `unprocess:*`. (Not `srisp:*`: writers drop the prefixes of other loaded formats.)
@@ -24,9 +24,9 @@ constexpr const char* kCameraColorSpace = "camera_rgb";
 SRISP_API void mark_result(OIIO::ImageSpec& spec, Direction direction);
 
 /// `mark_result`, then parameters, names and hashes, and for `Direction::reverse` the reference's camera facts
-/// (XYZ→camera matrix, levels, …) and adoptedNeutral. `reference` may be null where parameters were given instead of
-/// one. The source's own ImageDescription is kept inside ours.
-SRISP_API void record_result(OIIO::ImageSpec& spec, const Parameters& parameters, const Reference* reference,
+/// (XYZ→camera matrix, levels, …) and adoptedNeutral. `camera` may be null where parameters were given instead of a
+/// reference. The source's own ImageDescription is kept inside ours.
+SRISP_API void record_result(OIIO::ImageSpec& spec, const Parameters& parameters, const CameraFacts* camera,
                              Direction direction);
 
 /// Takes the parameters that `record_result` left in an image. Error: none there, or they are damaged. `where`: the

@@ -9,19 +9,9 @@
 #include <OpenImageIO/imageio.h>
 #include <srisp/expected.h>
 #include <srisp/export.h>
+#include <srisp/options.h>
 
 namespace srisp {
-
-/// How the stored colour values of an image are to be read.
-enum class InputEncoding {
-    automatic, ///< what the image says: colour-space name, then ICC profile, then the type (float EXR is "Linear")
-    srgb,      ///< display-encoded sRGB, whatever else the image says
-    linear,    ///< linear light with sRGB primaries; encoded with the sRGB curve
-    camera     ///< a RAW-like image, to be processed forward: values are taken as they are
-};
-
-/// Reads "auto", "srgb" or "linear"; an error names all three.
-SRISP_API Expected<InputEncoding> input_encoding_from_name(const std::string& name);
 
 /// What `PhotoConverter::to_rgb` had to change.
 struct PhotoCounts {

@@ -6,9 +6,9 @@
 #include <doctest/doctest.h>
 
 #include "gain_match.h"
+#include "pack/training_pack_writer.h"
 #include "random_model.h"
 #include "small_pack.h"
-#include "training_pack_writer.h"
 
 using namespace srisp;
 using namespace srisp::train;

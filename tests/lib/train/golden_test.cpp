@@ -2,9 +2,9 @@
 // Every step of the LibTorch network against the values of an independent implementation.
 #include <doctest/doctest.h>
 
+#include "model/safetensors.h"
 #include "model_file.h"
 #include "network.h"
-#include "safetensors.h"
 #include "shared_files.h"
 #include "tensor_tools.h"
 

@@ -5,10 +5,10 @@
 
 #include <doctest/doctest.h>
 
-#include "model_parser.h"
+#include "model/model_parser.h"
+#include "model/safetensors.h"
 #include "network.h"
 #include "random_model.h"
-#include "safetensors.h"
 #include "tensor_tools.h"
 
 using namespace srisp;

@@ -4,9 +4,9 @@
 #include <doctest/doctest.h>
 
 #include "image_compare.h"
+#include "kernels/pointwise.h"
 #include "ocio/ocio_pixels.h"
 #include "ocio_group.h"
-#include "pointwise.h"
 
 using namespace srisp;
 

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "area_squasher.h"
+#include "thumbnail/area_squasher.h"
 
 using namespace srisp;
 

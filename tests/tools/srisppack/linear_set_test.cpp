@@ -6,8 +6,8 @@
 #include <doctest/doctest.h>
 
 #include "../scratch_folder.h"
-#include "half_float.h"
-#include "safetensors_writer.h"
+#include "base/half_float.h"
+#include "model/safetensors_writer.h"
 
 using namespace srisp;
 

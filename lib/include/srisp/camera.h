@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace srisp {
+
+/// What a RAW file says of its camera and exposure. Levels are in the file's own units. Zero or empty: not known.
+struct CameraFacts {
+    std::string make, model;
+    int width = 0, height = 0; ///< active area as stored (before orientation), pixels
+    int orientation = 1;       ///< EXIF orientation of the stored pixels
+    std::string cfa_pattern;   ///< "RGGB", … from the active area's top left; "" for demosaiced (LinearRaw) images
+    std::array<float, 4> black_level{}; ///< mean black level of R, G (first green), B, second green
+    float white_level = 0;
+    /// XYZ → camera RGB, row-major 3×3, with the EXIF LightSource code of its calibration illuminant (0: not known).
+    struct ColorMatrix {
+        std::array<float, 9> xyz_to_camera;
+        int illuminant = 0;
+    };
+    std::vector<ColorMatrix> color_matrices;
+    std::array<float, 3> as_shot_neutral{}; ///< camera RGB of a neutral surface, G = 1
+    float iso = 0, exposure_time_s = 0, f_number = 0;
+    std::vector<double> noise_profile; ///< DNG NoiseProfile: pairs of shot and read noise, of values in [0,1]
+};
+
+} // namespace srisp

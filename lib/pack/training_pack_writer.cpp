@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pack/training_pack_writer.h"
+
+#include <filesystem>
+
+#include "base/mapped_file.h"
+#include "base/xxh64.h"
+#include "model/safetensors_writer.h"
+
+namespace srisp {
+
+namespace {
+
+// The number of images is known at the end only, so the header gets a room of fixed size; the format allows spaces
+// behind it.
+constexpr std::size_t kHeaderRoom = 256;
+
+/// Size and hash of a file that is complete: read back, so that what is recorded is what is there.
+Expected<PackFile> describe_file(const std::string& path)
+{
+    const Expected<MappedFile> file = MappedFile::open(path);
+    if (!file)
+        return file.error();
+    return PackFile{ std::filesystem::path(path).filename().string(), file->size(),
+                     xxh64_of_bytes(file->data(), file->size()) };
+}
+
+std::string pixels_header(std::size_t images, int size)
+{
+    const std::size_t bytes = images * 3 * std::size_t(size) * size * sizeof(std::uint16_t);
+    const nlohmann::json header = {
+        { "pixels", { { "dtype", "U16" }, { "shape", { images, 3, size, size } }, { "data_offsets", { 0, bytes } } } }
+    };
+    std::string text = header.dump();
+    text.resize(kHeaderRoom - 8, ' ');
+    const std::uint64_t length = text.size();
+    return std::string(reinterpret_cast<const char*>(&length), 8) + text;
+}
+
+} // namespace
+
+PackImagesWriter::PackImagesWriter(const std::string& path, int size) : m_path(path), m_file(path)
+{
+    m_index.size = size;
+    m_file.write(std::string(kHeaderRoom, ' '));
+}
+
+Status PackImagesWriter::add(const PackScene& scene, const std::vector<std::uint16_t>& pixels)
+{
+    m_file.write(pixels.data(), pixels.size() * sizeof(std::uint16_t));
+    if (!m_file.good())
+        return m_file.finish();
+    m_images += scene.crops.size();
+    m_index.scenes.push_back(scene);
+    return {};
+}
+
+Expected<PackImagesIndex> PackImagesWriter::finish()
+{
+    if (m_images == 0)
+        return Error{ "'" + m_path + "': no images" };
+    const std::string header = pixels_header(m_images, m_index.size);
+    m_file.write_start(header.data(), header.size());
+    if (Status status = m_file.finish(); !status)
+        return status.error();
+    Expected<PackFile> file = describe_file(m_path);
+    if (!file)
+        return file.error();
+    m_index.file = *file;
+    return std::move(m_index);
+}
+
+Expected<std::unique_ptr<TrainingPackWriter>> TrainingPackWriter::create(const std::string& folder, bool replace)
+{
+    auto staged = StagedFolder::create(folder, kPackIndexName, replace);
+    if (!staged)
+        return staged.error();
+    return std::unique_ptr<TrainingPackWriter>(new TrainingPackWriter(std::move(*staged)));
+}
+
+/// Takes what a writer of images made into the index.
+static Status take_part(PackImagesWriter& images, std::optional<PackImagesIndex>& part)
+{
+    Expected<PackImagesIndex> index = images.finish();
+    if (!index)
+        return index.error();
+    part = std::move(*index);
+    return {};
+}
+
+Status TrainingPackWriter::add_photos(PackImagesWriter& images)
+{
+    return take_part(images, m_index.photos);
+}
+
+Status TrainingPackWriter::add_raws(PackImagesWriter& images)
+{
+    return take_part(images, m_index.raws);
+}
+
+Status TrainingPackWriter::add_cameras(const PackedCameras& cameras, PackCamerasIndex names)
+{
+    const std::string path = m_folder->path() + "/cameras.safetensors";
+    const auto count = std::int64_t(names.cameras.size()), lights = std::int64_t(names.lights.size());
+    const Status written =
+        write_safetensors(path,
+                          { { "wavelengths", "F32", { kPackWavelengths }, cameras.wavelengths.data() },
+                            { "sensitivities", "F32", { count, 3, kPackWavelengths }, cameras.sensitivities.data() },
+                            { "lights", "F32", { lights, kPackWavelengths }, cameras.lights.data() },
+                            { "reflectance", "F32", { 3, kPackWavelengths }, cameras.reflectance.data() } },
+                          {});
+    if (!written)
+        return written;
+    Expected<PackFile> file = describe_file(path);
+    if (!file)
+        return file.error();
+    names.file = *file;
+    m_index.cameras = std::move(names);
+    return {};
+}
+
+Status TrainingPackWriter::finish(const std::string& made_by, const nlohmann::json& settings)
+{
+    m_index.made_by = made_by;
+    m_index.settings = settings;
+    if (Status status = write_output_file(m_folder->path() + "/" + kPackIndexName, format_pack_index(m_index)); !status)
+        return status;
+    if (const auto read_back = TrainingPack::open(m_folder->path()); !read_back)
+        return read_back.error();
+    return m_folder->publish();
+}
+
+} // namespace srisp

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <srisp/expected.h>
+#include <srisp/options.h>
+
+namespace srisp {
+
+/// What is to be done with one image: the contents of a `.srisp` file, of a query, or of a job that srisptool wrote.
+struct Recipe {
+    enum class Action { apply, print, save };
+
+    std::string source; ///< path of the photo; empty in a job, whose pixels come by hand-over
+    Direction direction = Direction::reverse;
+    std::string reference;  ///< path, folder, glob or ';' list; may be empty where parameters are given
+    std::string model;      ///< name or path; empty: the one that the parameters name, else "default"
+    std::string parameters; ///< JSON text; empty: to be selected (reverse), or those recorded in the image (forward)
+    std::string parameters_where; ///< what that text is called in messages
+    InputEncoding input = InputEncoding::automatic;
+    Precision precision = Precision::float32;
+    std::uint64_t seed = 0;
+    bool lazy = false;     ///< opening reads headers only; metadata lacks parameters that must be selected
+    bool hold = false;     ///< the first image's parameters hold for all later ones of this process
+    bool progress = false; ///< on stderr, after two seconds
+    bool notes = false;    ///< what was assumed or clipped, on stderr
+    Action action = Action::apply;
+    std::string file;    ///< where `save` writes
+    std::string name;    ///< what a handed-over image is called: in print's output and where seed chooses a reference
+    std::string command; ///< what the user typed; recorded in the result where srisptool says it
+    std::string path;    ///< of the recipe or job itself; key of `hold`
+};
+
+/// Reads a recipe (`is_job` false) or job from its JSON text. `path` is where it lies: paths in it are relative to its
+/// folder. Errors: not JSON, unknown keys or values (the near ones listed), wrong types, nothing to choose parameters
+/// by.
+Expected<Recipe> recipe_from_json(const std::string& text, const std::string& path, bool is_job);
+
+/// Sets one value from a text: `key` is one of settable_keys(). Paths are relative to the working folder.
+Status set_by_text(Recipe& recipe, const std::string& key, const std::string& value);
+
+/// reference, model, params, input, precision, seed, direction, lazy: what a query or a configuration hint may say.
+const std::vector<std::string>& settable_keys();
+
+/// Whether parameters can be had at all. `where` names the recipe in the message.
+Status check_complete(const Recipe& recipe, const std::string& where);
+
+} // namespace srisp

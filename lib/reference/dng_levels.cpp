@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/dng_levels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "reference/dng_camera.h"
+#include "reference/tiff_tags.h"
+
+namespace srisp {
+
+namespace {
+
+// TIFF and DNG tags (DNG specification 1.4, chapter 4).
+enum : std::uint16_t {
+    kNewSubfileType = 254,
+    kImageWidth = 256,
+    kImageLength = 257,
+    kBitsPerSample = 258,
+    kCompression = 259,
+    kPhotometric = 262,
+    kStripOffsets = 273,
+    kSamplesPerPixel = 277,
+    kStripByteCounts = 279,
+    kPlanarConfiguration = 284,
+    kTileWidth = 322,
+    kTileOffsets = 324,
+    kTileByteCounts = 325,
+    kSampleFormat = 339,
+    kCfaRepeatPatternDim = 33421,
+    kCfaPattern = 33422,
+    kDngVersion = 50706,
+    kCfaPlaneColor = 50710,
+    kCfaLayout = 50711,
+    kLinearizationTable = 50712,
+    kBlackLevelRepeatDim = 50713,
+    kBlackLevel = 50714,
+    kBlackLevelDeltaH = 50715,
+    kBlackLevelDeltaV = 50716,
+    kWhiteLevel = 50717,
+    kActiveArea = 50829,
+    kOpcodeList1 = 51008,
+    kOpcodeList2 = 51009,
+    kOpcodeList3 = 51022
+};
+
+constexpr int kPhotometricCfa = 32803, kPhotometricLinearRaw = 34892;
+constexpr int kLargestSide = 65535; // LibRaw's limit
+constexpr int kLargestPattern = 64; // of black levels; real ones have 1, 2 or 6
+
+/// Builds a description step by step; each step returns why it can't, or "".
+class DngReader {
+public:
+    DngReader(const TiffTags& tags, std::size_t file_size) : m_tags(tags), m_file_size(file_size) {}
+
+    Expected<DngDescription> read()
+    {
+        for (const auto step : { &DngReader::find_image, &DngReader::read_sizes, &DngReader::read_colors,
+                                 &DngReader::read_black, &DngReader::read_white, &DngReader::check_storage })
+            if (const std::string why = (this->*step)(); !why.empty())
+                return Error{ why };
+        note_what_is_ignored();
+        describe_levels(m_dng.layout, m_dng.facts);
+        describe_dng_camera(m_tags, image(), m_dng.facts);
+        return m_dng;
+    }
+
+private:
+    const TiffFolder& image() const { return m_tags.folders()[m_image]; }
+    int integer(std::uint16_t tag, int otherwise) const { return clamped(m_tags.value(image(), tag, otherwise)); }
+
+    /// Damaged numbers must not overflow; everything real is far below this bound.
+    static int clamped(double value) { return std::isnan(value) ? -1 : int(std::clamp(value, -1e9, 1e9)); }
+
+    std::string find_image();
+    std::string read_sizes();
+    std::string read_colors();
+    std::string read_black();
+    std::string read_white();
+    std::string check_storage();
+    void note_what_is_ignored();
+
+    const TiffTags& m_tags;
+    std::size_t m_file_size;
+    std::size_t m_image = 0; // among the folders
+    DngDescription m_dng;
+};
+
+std::string DngReader::find_image()
+{
+    const auto& folders = m_tags.folders();
+    for (std::size_t i = 0; i < folders.size(); ++i) {
+        const double photometric = m_tags.value(folders[i], kPhotometric, -1);
+        const bool raw = photometric == kPhotometricCfa || photometric == kPhotometricLinearRaw;
+        if (raw && m_tags.value(folders[i], kNewSubfileType, 0) == 0) {
+            m_image = i;
+            m_dng.folder_offset = folders[i].offset;
+            return {};
+        }
+    }
+    return "DNG without a main RAW image (photometric interpretation CFA or LinearRaw)";
+}
+
+std::string DngReader::read_sizes()
+{
+    m_dng.stored_width = integer(kImageWidth, 0);
+    m_dng.stored_height = integer(kImageLength, 0);
+    m_dng.samples = integer(kSamplesPerPixel, 1);
+    m_dng.bits = integer(kBitsPerSample, 1);
+    m_dng.is_float = integer(kSampleFormat, 1) == 3;
+    m_dng.compression = integer(kCompression, 1);
+    const std::string size = std::to_string(m_dng.stored_width) + " x " + std::to_string(m_dng.stored_height);
+    if (std::min(m_dng.stored_width, m_dng.stored_height) < 1)
+        return "DNG of " + size + " pixels: the image area is empty";
+    if (std::max(m_dng.stored_width, m_dng.stored_height) > kLargestSide)
+        return "DNG of " + size + " pixels, the limit is " + std::to_string(kLargestSide) + " a side";
+
+    std::vector<double> area = m_tags.values(image(), kActiveArea); // top, left, bottom, right
+    if (area.size() != 4)
+        area = { 0, 0, double(m_dng.stored_height), double(m_dng.stored_width) };
+    const int bottom = clamped(area[2]), right = clamped(area[3]);
+    m_dng.top = clamped(area[0]);
+    m_dng.left = clamped(area[1]);
+    m_dng.layout.width = right - m_dng.left;
+    m_dng.layout.height = bottom - m_dng.top;
+    if (m_dng.top < 0 || m_dng.left < 0 || m_dng.layout.width < 1 || m_dng.layout.height < 1 ||
+        bottom > m_dng.stored_height || right > m_dng.stored_width)
+        return "DNG of " + size + " pixels whose active area (top " + std::to_string(m_dng.top) + ", left " +
+               std::to_string(m_dng.left) + ", bottom " + std::to_string(bottom) + ", right " + std::to_string(right) +
+               ") is empty or lies outside";
+    return {};
+}
+
+std::string DngReader::read_colors()
+{
+    if (integer(kPhotometric, -1) == kPhotometricLinearRaw) {
+        m_dng.layout.channels = m_dng.samples;
+        if (m_dng.samples == 1)
+            return "monochrome DNG (LinearRaw with one sample per pixel): a reference needs three colours";
+        return m_dng.samples == 3 ? ""
+                                  : "LinearRaw DNG with " + std::to_string(m_dng.samples) +
+                                        " samples per pixel: a reference needs three colours";
+    }
+    if (m_dng.samples != 1)
+        return "DNG mosaic with " + std::to_string(m_dng.samples) + " samples per pixel: only 1 is supported";
+    if (integer(kCfaLayout, 1) != 1)
+        return "DNG with a staggered mosaic (CFALayout " + std::to_string(integer(kCfaLayout, 1)) + "): not supported";
+    const std::vector<double> dim = m_tags.values(image(), kCfaRepeatPatternDim),
+                              pattern = m_tags.values(image(), kCfaPattern);
+    CfaPattern& cfa = m_dng.layout.cfa;
+    const bool bayer = pattern.size() == 4 && dim == std::vector<double>{ 2, 2 };
+    const bool xtrans = pattern.size() == 36 && dim == std::vector<double>{ 6, 6 };
+    if (!bayer && !xtrans)
+        return "DNG mosaic of " + std::to_string(pattern.size()) +
+               " filters: only patterns of 2 x 2 and 6 x 6 are supported";
+    cfa.rows = cfa.columns = bayer ? 2 : 6;
+    // CFAPattern holds colours (0 R, 1 G, 2 B, 3 … others); CFAPlaneColor only tells in which order planes come.
+    for (const double color : pattern)
+        cfa.letters += color >= 0 && color < 7 ? "RGBCMYW"[int(color)] : '?';
+    return check_filters(m_dng.layout);
+}
+
+std::string DngReader::read_black()
+{
+    BlackLevels& black = m_dng.layout.black;
+    std::vector<double> dim = m_tags.values(image(), kBlackLevelRepeatDim);
+    if (dim.size() != 2)
+        dim = { 1, 1 };
+    black.rows = clamped(dim[0]);
+    black.columns = clamped(dim[1]);
+    if (std::min(black.rows, black.columns) < 1 || std::max(black.rows, black.columns) > kLargestPattern)
+        return "DNG black level pattern of " + std::to_string(black.rows) + " x " + std::to_string(black.columns) +
+               ": 1 to " + std::to_string(kLargestPattern) + " are possible";
+    std::vector<double> levels = m_tags.values(image(), kBlackLevel);
+    const std::size_t expected =
+        std::size_t(black.rows) * std::size_t(black.columns) * std::size_t(m_dng.layout.channels);
+    if (levels.size() == 1 || levels.empty()) // one level for all; none means 0
+        levels.assign(expected, levels.empty() ? 0 : levels[0]);
+    if (levels.size() != expected)
+        return "DNG with " + std::to_string(levels.size()) + " black levels where its pattern needs " +
+               std::to_string(expected);
+    black.pattern.assign(levels.begin(), levels.end());
+
+    const std::vector<double> h = m_tags.values(image(), kBlackLevelDeltaH),
+                              v = m_tags.values(image(), kBlackLevelDeltaV);
+    if ((!h.empty() && h.size() != std::size_t(m_dng.layout.width)) ||
+        (!v.empty() && v.size() != std::size_t(m_dng.layout.height)))
+        return "DNG whose BlackLevelDeltaH (" + std::to_string(h.size()) + ") or BlackLevelDeltaV (" +
+               std::to_string(v.size()) + ") does not fit its active area";
+    black.by_column.assign(h.begin(), h.end());
+    black.by_row.assign(v.begin(), v.end());
+    return {};
+}
+
+std::string DngReader::read_white()
+{
+    std::vector<double> levels = m_tags.values(image(), kWhiteLevel);
+    if (levels.empty())
+        levels = { m_dng.is_float ? 1.0 : std::exp2(std::clamp(m_dng.bits, 1, 32)) - 1 };
+    for (int c = 0; c < 3; ++c)
+        m_dng.layout.white[std::size_t(c)] = float(levels[std::min(std::size_t(c), levels.size() - 1)]);
+    return check_levels(m_dng.layout);
+}
+
+/// Whether all image data lie in the file, in a form that the decoders really handle: LibRaw reads uncompressed data in
+/// one run and the first strip only of a JPEG, whatever the tags say.
+std::string DngReader::check_storage()
+{
+    static const std::map<int, std::string> kRefused = { { 34892, "lossy JPEG (8 bit, not sensor values)" },
+                                                         { 9, "VC-5" },
+                                                         { 52546, "JPEG XL" } };
+    if (const auto refused = kRefused.find(m_dng.compression); refused != kRefused.end())
+        return "DNG compressed by " + refused->second + ": not supported";
+    if (integer(kPlanarConfiguration, 1) != 1)
+        return "DNG with separate colour planes: not supported";
+    const bool tiled = image().find(kTileOffsets) != nullptr;
+    const std::vector<double> offsets = m_tags.values(image(), tiled ? kTileOffsets : kStripOffsets);
+    const std::vector<double> counts = m_tags.values(image(), tiled ? kTileByteCounts : kStripByteCounts);
+    if (offsets.empty() || offsets.size() != counts.size())
+        return "DNG without image data";
+    for (std::size_t i = 0; i < offsets.size(); ++i)
+        if (offsets[i] + counts[i] > double(m_file_size))
+            return "truncated: image data end at byte " + std::to_string(std::uint64_t(offsets[i] + counts[i])) +
+                   ", the file has " + std::to_string(m_file_size);
+    if (m_dng.is_float)
+        return {}; // libtiff decodes these
+    if (m_dng.compression != 1 && m_dng.compression != 7)
+        return "DNG of integers with compression " + std::to_string(m_dng.compression) + ": LibRaw does not decode it";
+    if (m_dng.compression == 7)
+        return tiled || offsets.size() == 1 ? "" : "DNG with several JPEG strips: LibRaw does not decode it";
+    if (tiled && integer(kTileWidth, 0) != m_dng.stored_width)
+        return "uncompressed DNG in tiles: LibRaw does not decode it";
+    for (std::size_t i = 1; i < offsets.size(); ++i)
+        if (offsets[i] != offsets[i - 1] + counts[i - 1])
+            return "uncompressed DNG whose strips do not follow each other: LibRaw does not decode it";
+    return {};
+}
+
+void DngReader::note_what_is_ignored()
+{
+    for (const std::uint16_t list : { kOpcodeList1, kOpcodeList2, kOpcodeList3 })
+        if (image().find(list))
+            m_dng.notes.push_back("OpcodeList" + std::to_string(list == kOpcodeList3 ? 3 : list - kOpcodeList1 + 1) +
+                                  " of the DNG (gain maps and other corrections) was ignored");
+    if (image().find(kBlackLevel) == nullptr)
+        m_dng.notes.push_back("the DNG states no black level: 0 was assumed");
+    if (image().find(kWhiteLevel) == nullptr)
+        m_dng.notes.push_back("the DNG states no white level: its type's largest value was assumed");
+}
+
+} // namespace
+
+Expected<std::optional<DngDescription>> describe_dng(const FileBytes& file)
+{
+    const TiffTags tags(file.data.get(), file.size);
+    if (tags.folders().empty() || tags.folders()[0].find(kDngVersion) == nullptr)
+        return std::optional<DngDescription>();
+    auto description = DngReader(tags, file.size).read();
+    if (!description)
+        return description.error();
+    return std::optional<DngDescription>(std::move(*description));
+}
+
+} // namespace srisp

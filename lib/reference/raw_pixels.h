@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <srisp/camera.h>
+#include <srisp/image.h>
+
+namespace srisp {
+
+/// Colours of the sensor's filters, repeating from the active area's top left: `letters` (R, G, B) row by row.
+struct CfaPattern {
+    int rows = 0, columns = 0;
+    std::string letters;
+
+    /// 0, 1, 2 for R, G, B.
+    int color(int row, int column) const
+    {
+        const char letter = letters[std::size_t(row % rows * columns + column % columns)];
+        return letter == 'R' ? 0 : letter == 'G' ? 1 : 2;
+    }
+};
+
+/// Black level of each sample: a pattern that repeats from the active area's top left (row by row, samples of a pixel
+/// adjacent) plus a part per column and a part per row (both may be empty). [DNG 1.4, BlackLevel …]
+struct BlackLevels {
+    int rows = 1, columns = 1;
+    std::vector<float> pattern;
+    std::vector<float> by_column, by_row;
+};
+
+/// The active area of a decoded sensor image, as stored, before black and white are applied.
+struct RawPixels {
+    std::shared_ptr<const void> owner;     ///< of the samples
+    const std::uint16_t* shorts = nullptr; ///< first sample of the active area; either this …
+    const float* floats = nullptr;         ///< … or this, all finite
+    std::ptrdiff_t row_stride = 0;         ///< samples from a row to the next one
+    int pixel_stride = 1;                  ///< samples from a pixel to its right neighbour
+    int channels = 1;                      ///< 1: mosaic with `cfa`; 3: R, G, B
+    int width = 0, height = 0;
+    CfaPattern cfa;
+    BlackLevels black;
+    std::array<float, 3> white{}; ///< per channel; the first one for a mosaic
+};
+
+/// What a decoder makes of a RAW file.
+struct RawImage {
+    RawPixels pixels;
+    CameraFacts facts;
+    std::vector<std::string> notes;
+};
+
+/// Turns stored rows into (value − black) / (white − black), clipped to [0,1].
+class RowScaler {
+public:
+    /// `pixels` must outlive this object, and its levels must have passed `check_levels`.
+    explicit RowScaler(const RawPixels& pixels);
+
+    /// Writes width × channels values of one row. Threads: safe.
+    void scale(int row, float* target) const;
+
+private:
+    template<class Sample> void scale_row(const Sample* source, int row, float* target) const;
+
+    const RawPixels& m_pixels;
+    std::vector<float> m_black, m_factor; ///< factor = 1 / (white − black); [row of the pattern][column][channel]
+};
+
+/// Why these filters can't be used (a colour that is not R, G or B, or none of one; X-Trans too small for its pattern),
+/// or
+/// "" if they can. Images of three channels pass.
+std::string check_filters(const RawPixels& pixels);
+
+/// Why these levels can't be used ("black level 2056 is not below white level 1023"), or "" if they can.
+std::string check_levels(const RawPixels& pixels);
+
+/// Fills the facts that follow from the pixels: size, CFA pattern and levels.
+void describe_levels(const RawPixels& pixels, CameraFacts& facts);
+
+} // namespace srisp

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <srisp/reference.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include <srisp/thumbnail.h>
+
+#include "base/content_hash.h"
+#include "base/file_bytes.h"
+#include "reference/camera_files.h"
+#include "reference/dng_levels.h"
+#include "reference/float_dng.h"
+#include "reference/libraw_decoder.h"
+#include "reference/linear_image.h"
+#include "reference/mosaic_thumbnail.h"
+
+namespace srisp {
+
+namespace {
+
+// Below this a frame holds noise, which says nothing of the light.
+constexpr float kDarkest = 0.005f;
+
+/// By the 98th percentile of all values, the three channels together.
+std::string check_brightness(const Thumbnail& thumbnail)
+{
+    const std::vector<float>& all = thumbnail.rgb;
+    const auto place = std::ptrdiff_t(double(all.size() - 1) * 0.98);
+    if (std::count_if(all.begin(), all.end(), [](float v) { return v < kDarkest; }) <= place)
+        return {};
+    std::vector<float> values = all;
+    std::nth_element(values.begin(), values.begin() + place, values.end());
+    char text[128];
+    std::snprintf(text, sizeof text, "is a black frame: 98 %% of its values are at or below %.5f, the limit is %.3f",
+                  double(values[std::size_t(place)]), double(kDarkest));
+    return text;
+}
+
+/// Fills all but name and path from a RAW file; why it can't, or "".
+std::string load_raw(const std::string& path, Reference& reference)
+{
+    const auto file = read_whole_file(path);
+    if (!file)
+        return file.error().message;
+    const auto dng = describe_dng(*file);
+    if (!dng)
+        return dng.error().message;
+    const DngDescription* description = *dng ? &**dng : nullptr;
+    const auto image = description && description->is_float ? decode_float_dng(*file, *description)
+                                                            : decode_with_libraw(*file, description);
+    if (!image)
+        return image.error().message;
+    reference.hash = hash_of_bytes(file->data.get(), file->size);
+    reference.facts = image->facts;
+    reference.notes = image->notes;
+    reference.thumbnail = oriented(raw_thumbnail(image->pixels), reference.facts.orientation);
+    return {};
+}
+
+/// The same from an EXR, or from a TIFF that srisp wrote. `format`: OpenImageIO's name.
+std::string load_linear(const std::string& path, const std::string& format, Reference& reference)
+{
+    const auto image = load_linear_image(path, format);
+    if (!image)
+        return image.error().message;
+    const auto hash = hash_of_file(path);
+    if (!hash)
+        return hash.error().message;
+    reference.hash = *hash;
+    reference.thumbnail = image->thumbnail;
+    reference.facts = image->facts;
+    reference.notes = image->notes;
+    return {};
+}
+
+std::string load_by_type(const FileType& type, const std::string& path, Reference& reference)
+{
+    switch (type.kind) {
+    case FileKind::display_encoded:
+        return "is a " + type.name +
+               " file, which is display-encoded and no reference: give a RAW file (DNG, NEF, CR2, ...)";
+    case FileKind::foveon:
+        return "Foveon sensor (three layers, no mosaic): not supported";
+    case FileKind::exr:
+        return load_linear(path, "openexr", reference);
+    case FileKind::tiff:
+        // Most RAW formats are TIFF inside, some (Canon 1D) even by name; a TIFF of ours is no RAW whatever LibRaw
+        // thinks.
+        if (!has_raw_extension(path)) {
+            const std::string why = load_linear(path, "tiff", reference);
+            return why.empty() || load_raw(path, reference).empty() ? "" : why;
+        }
+        break;
+    case FileKind::raw:
+        break;
+    }
+    return load_raw(path, reference);
+}
+
+} // namespace
+
+Expected<std::shared_ptr<const Reference>> load_reference(const std::string& path)
+{
+    const auto fail = [&](const std::string& why) { return Error{ "reference '" + path + "': " + why }; };
+    try {
+        const auto head = read_head(path, kHeadBytes);
+        if (!head)
+            return fail(head.error().message);
+        const auto reference = std::make_shared<Reference>();
+        reference->path = path;
+        reference->name = std::filesystem::path(path).filename().string();
+        if (const std::string why = load_by_type(file_type(*head), path, *reference); !why.empty())
+            return fail(why);
+        if (const std::string why = check_brightness(reference->thumbnail); !why.empty())
+            return fail(why);
+        return std::shared_ptr<const Reference>(reference);
+    } catch (const std::exception& failed) {
+        return fail(failed.what());
+    }
+}
+
+} // namespace srisp

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "result/band_reader.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+
+namespace srisp {
+
+namespace {
+
+constexpr int kBandRows = 256;
+constexpr int kLeastBandRows = 32;
+constexpr int kBandPixels = 2 << 20; // 24 MB of RGB
+constexpr std::size_t kBandsKept = 2;
+
+void add(PhotoCounts& sum, const PhotoCounts& counts)
+{
+    sum.values += counts.values;
+    sum.clipped += counts.clipped;
+    sum.replaced += counts.replaced;
+}
+
+} // namespace
+
+int band_rows(const OIIO::ImageSpec& spec)
+{
+    const int rows = std::clamp(kBandPixels / std::max(spec.width, 1), kLeastBandRows, kBandRows);
+    const int tile = std::max(spec.tile_height, 1);
+    return (rows + tile - 1) / tile * tile;
+}
+
+std::vector<float> convert_rows(const PhotoConverter& converter, const StoredRows& rows, int width, int channels,
+                                int threads, int counted_y0, int counted_y1, PhotoCounts& counts)
+{
+    const int count = rows.y1 - rows.y0;
+    std::vector<float> rgb(std::size_t(width) * count * 3);
+    std::vector<PhotoCounts> row_counts(count);
+    const auto convert = [&](std::int64_t row) {
+        converter.to_rgb(rows.values.data() + row * width * channels, width, rgb.data() + row * width * 3,
+                         row_counts[row]);
+    };
+    parallel_tasks(count, threads, convert);
+    for (int y = counted_y0; y < counted_y1; ++y)
+        add(counts, row_counts[y - rows.y0]);
+    return rgb;
+}
+
+BandReader::BandReader(PixelSource& source, int subimage, int miplevel, const OIIO::ImageSpec& stored,
+                       BandSettings settings)
+    : m_source(source), m_width(stored.width), m_height(stored.height), m_stored_channels(stored.nchannels),
+      m_channels(settings.converter->output_spec().nchannels), m_band_rows(band_rows(stored)),
+      m_settings(std::move(settings)),
+      m_window(source, subimage, miplevel, std::size_t(stored.width) * stored.nchannels),
+      m_done((stored.height + m_band_rows - 1) / m_band_rows), m_progress(m_settings.progress)
+{
+}
+
+Status BandReader::read(int x0, int x1, int y0, int y1, float* out, std::size_t row_stride)
+{
+    for (int y = y0; y < y1;) {
+        const int index = y / m_band_rows;
+        const auto found = band(index);
+        if (!found)
+            return found.error();
+        const int end = std::min((index + 1) * m_band_rows, y1);
+        for (; y < end; ++y, out += row_stride) {
+            const std::size_t pixel = std::size_t(y - index * m_band_rows) * m_width;
+            std::copy((*found)->values.data() + (pixel + x0) * m_channels,
+                      (*found)->values.data() + (pixel + x1) * m_channels, out);
+        }
+    }
+    return {};
+}
+
+Expected<std::shared_ptr<const BandReader::Band>> BandReader::band(int index)
+{
+    for (const auto& kept : m_last)
+        if (kept->index == index)
+            return kept;
+    auto computed = compute(index);
+    if (!computed)
+        return computed;
+    m_last.insert(m_last.begin(), *computed);
+    m_last.resize(std::min(m_last.size(), kBandsKept));
+    return computed;
+}
+
+Expected<std::shared_ptr<const BandReader::Band>> BandReader::compute(int index)
+{
+    const int y0 = index * m_band_rows, y1 = std::min(y0 + m_band_rows, m_height);
+    const int halo = m_settings.applier->halo();
+    const int first = std::max(y0 - halo, 0), last = std::min(y1 + halo, m_height);
+    const auto stored = m_window.rows(first, last);
+    if (!stored)
+        return stored.error();
+    const std::size_t stored_row = std::size_t(m_width) * m_stored_channels, row = std::size_t(m_width) * 3;
+    PhotoCounts counts;
+    const std::vector<float> rgb =
+        convert_rows(*m_settings.converter, **stored, m_width, m_stored_channels, m_settings.threads, y0, y1, counts);
+    const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(row);
+    const ImageView source{ rgb.data(), m_width, last - first, 3, stride };
+    std::vector<float> result(row * (y1 - y0));
+    ApplyOptions options;
+    options.threads = m_settings.threads;
+    options.progress = [&](float part) {
+        m_progress.show((m_bands_done + part) / m_done.size());
+        return true;
+    };
+    const Status applied = m_settings.applier->run(source, 0, first, m_width, m_height, Roi{ 0, m_width, y0, y1 },
+                                                   { result.data(), m_width, y1 - y0, 3, stride }, options);
+    if (!applied)
+        return Error{ m_source.name() + ": " + applied.error().message };
+
+    auto computed = std::make_shared<Band>(Band{ index, {} });
+    computed->values.resize(std::size_t(m_width) * (y1 - y0) * m_channels);
+    m_settings.converter->from_rgb(result.data(), (*stored)->row(y0, stored_row), std::int64_t(m_width) * (y1 - y0),
+                                   m_settings.associate, computed->values.data());
+    if (!m_done[index]) {
+        m_done[index] = true;
+        ++m_bands_done;
+        add(m_counts, counts);
+    }
+    if (complete())
+        m_progress.wipe();
+    return std::shared_ptr<const Band>(computed);
+}
+
+} // namespace srisp

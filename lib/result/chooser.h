@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <srisp/model.h>
+#include <srisp/parameters.h>
+#include <srisp/photo.h>
+#include <srisp/reference.h>
+
+#include "photo/pixel_source.h"
+#include "recipe/recipe.h"
+
+namespace srisp {
+
+/// Parameters for one subimage, and where they come from.
+struct Choice {
+    std::shared_ptr<const Model> model;
+    Parameters parameters;
+    std::shared_ptr<const Reference> reference; ///< null where parameters were given without one
+    std::vector<std::string> notes;             ///< about reference and pixels
+};
+using ChoicePtr = std::shared_ptr<const Choice>;
+
+/// Finds the parameters that a recipe asks for. What was selected is kept for the whole process (a bounded number; key:
+/// state of the photo and the reference files, subimage, model's hash, settings), since hosts open a file several
+/// times.
+class Chooser {
+public:
+    /// Finds what can be wrong without decoding anything: model, parameters, reference's path. `photo_name`: with the
+    /// seed it decides which of several references is taken.
+    static Expected<Chooser> create(const Recipe& recipe, const std::string& photo_name);
+
+    /// The parameters if they are known without decoding anything: given, held, selected before, or recorded in the
+    /// image (forward). Null: they must be selected. `stored`: spec of MIP level 0.
+    Expected<ChoicePtr> known(const PixelSource& source, int subimage, const OIIO::ImageSpec& stored) const;
+
+    /// The same, selected from the pixels of MIP level 0 and the reference where they are not known.
+    Expected<ChoicePtr> choose(PixelSource& source, int subimage, const OIIO::ImageSpec& stored,
+                               const PhotoConverter& converter, int threads) const;
+
+private:
+    std::string key(const PixelSource& source, int subimage) const;
+    Expected<ChoicePtr> select_new(PixelSource& source, int subimage, const OIIO::ImageSpec& stored,
+                                   const PhotoConverter& converter, int threads) const;
+
+    Recipe m_recipe;
+    std::shared_ptr<const Model> m_model; ///< null: the image's record says which (forward)
+    std::optional<Parameters> m_given;
+    std::string m_reference; ///< path of the chosen file; may be empty
+};
+
+} // namespace srisp

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include <OpenImageIO/imageio.h>
+#include <srisp/expected.h>
+
+#include "result/band_reader.h"
+#include "result/chooser.h"
+
+namespace srisp {
+
+/// The image that a recipe stands for: specs and pixels of its subimages and MIP levels, computed when they are asked
+/// for. Not for use by several threads at a time.
+class ResultImage {
+public:
+    /// Reads headers only; finds what can be wrong without decoding the photo or the reference.
+    static Expected<std::unique_ptr<ResultImage>> open(const Recipe& recipe, std::unique_ptr<PixelSource> source,
+                                                       const OIIO::ImageSpec& config);
+
+    /// Whether parameters are to be selected as late as possible.
+    bool is_lazy() const { return m_recipe.lazy; }
+
+    /// The spec without decoding anything: all but the parameters where these must be selected first. Null: there is no
+    /// such level.
+    Expected<const OIIO::ImageSpec*> header(int subimage, int miplevel);
+
+    /// The whole spec, parameters included. Decodes the photo if they must be selected (once per process and photo).
+    Expected<const OIIO::ImageSpec*> full_spec(int subimage, int miplevel, int threads);
+
+    /// Columns x0 ≤ x < x1 of rows y0 ≤ y < y1 relative to the data window, all channels; `row_stride` in floats.
+    Status read(int subimage, int miplevel, int threads, int x0, int x1, int y0, int y1, float* out,
+                std::size_t row_stride);
+
+    /// The parameters of one subimage.
+    Expected<ChoicePtr> choice(int subimage, int threads);
+
+private:
+    /// One level of the source, and what is made of it.
+    struct Level {
+        OIIO::ImageSpec stored, result;
+        std::shared_ptr<const PhotoConverter> converter;
+        bool recorded = false;             ///< `result` holds the parameters
+        std::shared_ptr<BandReader> bands; ///< null until pixels are read
+    };
+
+    ResultImage(const Recipe& recipe, std::unique_ptr<PixelSource> source, Chooser chooser, bool associate)
+        : m_recipe(recipe), m_source(std::move(source)), m_chooser(std::move(chooser)), m_associate(associate)
+    {
+    }
+
+    Expected<Level*> level(int subimage, int miplevel);
+    Expected<Level*> existing_level(int subimage, int miplevel);
+    void record(Level& level, const Choice& choice) const;
+    void mark_straight(Level& level) const;
+    void drop_idle_readers();
+    Expected<std::shared_ptr<BandReader>> band_reader(int subimage, int miplevel, int threads);
+    void tell(const Level& level, const std::vector<std::string>& notes) const;
+
+    Recipe m_recipe;
+    std::unique_ptr<PixelSource> m_source;
+    Chooser m_chooser;
+    bool m_associate;
+    std::map<std::pair<int, int>, Level> m_levels;
+    std::map<int, std::shared_ptr<const Applier>> m_appliers; ///< by subimage
+};
+
+} // namespace srisp

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <srisp/image.h>
+#include <srisp/parameters.h>
+
+#include "kernels/pointwise.h"
+#include "model/model_data.h"
+
+namespace srisp {
+
+/// A thumbnail as three planes, with the room that the kernels need.
+struct PlanarThumbnail {
+    static constexpr std::ptrdiff_t kCount = kThumbnailSize * kThumbnailSize;
+    std::vector<float> values = std::vector<float>(3 * (kCount + kRowSlack));
+
+    Planes planes() { return { values.data(), kCount + kRowSlack }; }
+};
+
+/// What happens inside `select`, step by step; tests compare it with the golden values.
+struct SelectionTrace {
+    std::array<float, 12> source_statistics{}, reference_statistics{};
+    std::vector<float> source_features, reference_features, fused_features;
+    std::array<float, 3> base_gain{ 1, 1, 1 };
+    PlanarThumbnail after_tone, after_gamma, after_color, after_white_balance, after_gain;
+};
+
+/// `select` without its checks. Fills `trace` where it is given.
+Parameters select_parameters(const ModelData& model, const Thumbnail& source, const Thumbnail& reference,
+                             SelectionTrace* trace);
+
+} // namespace srisp

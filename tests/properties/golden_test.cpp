@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every step of select and apply against the values of an independent implementation.
+#include <doctest/doctest.h>
+#include <srisp/apply.h>
+#include <srisp/model.h>
+#include <srisp/select.h>
+
+#include "apply/tone_map.h"
+#include "each_target.h"
+#include "image_compare.h"
+#include "model/safetensors.h"
+#include "select/selection.h"
+#include "shared_files.h"
+
+using namespace srisp;
+
+namespace {
+
+constexpr double kTolerance = 1e-4; // of max(1, |value|) [method 3]
+
+struct Golden {
+    std::shared_ptr<const Model> model;
+    std::map<std::string, Tensor> values;
+
+    const std::vector<float>& at(const std::string& name) const { return values.at(name).values; }
+    Thumbnail thumbnail(const std::string& name) const
+    {
+        Thumbnail result;
+        result.rgb = at("thumb." + name);
+        return result;
+    }
+};
+
+Golden load_golden(const std::string& name)
+{
+    Expected<std::shared_ptr<const Model>> model = Model::load(shared_file("golden/model_" + name + ".safetensors"));
+    REQUIRE_MESSAGE(model, (model ? "" : model.error().message));
+    const std::string path = shared_file("golden/values_" + name + ".safetensors");
+    Expected<std::string> bytes = read_file(path, 1 << 26, path);
+    REQUIRE(bytes);
+    Expected<SafeTensors> file = parse_safetensors(*bytes, path);
+    REQUIRE_MESSAGE(file, (file ? "" : file.error().message));
+    return { *model, file->tensors };
+}
+
+template<class Values> void check_near(const Values& actual, const Golden& golden, const std::string& name)
+{
+    const Difference difference = compare(actual, golden.at(name));
+    INFO(name, ": ", difference.text);
+    CHECK(difference.largest_relative <= kTolerance);
+}
+
+/// Rows and columns 0, 4, 8, … of a running thumbnail, interleaved as in the golden file.
+std::vector<float> every_fourth(PlanarThumbnail& thumbnail)
+{
+    std::vector<float> values;
+    for (int y = 0; y < kThumbnailSize; y += 4)
+        for (int x = 0; x < kThumbnailSize; x += 4)
+            for (int c = 0; c < 3; ++c)
+                values.push_back(thumbnail.planes().plane(c)[y * kThumbnailSize + x]);
+    return values;
+}
+
+void check_mixed_kernels(const Golden& golden, const Parameters& parameters)
+{
+    const ModelData& model = golden.model->data();
+    for (int l = 0; l < kToneLayers; ++l)
+        for (const bool reverse : { true, false }) {
+            const ToneDictionary& dictionary = reverse ? model.tone_reverse : model.tone_forward;
+            const ConvolutionWeights mixed = mix_layer(dictionary[l], parameters.tone_weights[l]);
+            const std::string name =
+                std::string("parameters.tone_") + (reverse ? "reverse." : "forward.") + std::to_string(l);
+            check_near(mixed.weight, golden, name + ".weight");
+            check_near(mixed.bias, golden, name + ".bias");
+        }
+}
+
+void check_selection(const Golden& golden)
+{
+    SelectionTrace trace;
+    const Parameters p =
+        select_parameters(golden.model->data(), golden.thumbnail("source"), golden.thumbnail("reference"), &trace);
+    if (golden.values.count("source_statistics")) {
+        check_near(trace.source_statistics, golden, "source_statistics");
+        check_near(trace.reference_statistics, golden, "reference_statistics");
+    }
+    check_near(trace.source_features, golden, "source_features");
+    check_near(trace.reference_features, golden, "reference_features");
+    check_near(trace.fused_features, golden, "fused_features");
+    check_near(trace.base_gain, golden, "base_gain");
+    std::vector<float> tone_weights;
+    for (const std::vector<float>& weights : p.tone_weights)
+        tone_weights.insert(tone_weights.end(), weights.begin(), weights.end());
+    check_near(tone_weights, golden, "weights.tone");
+    check_near(p.gamma_weights, golden, "weights.gamma");
+    check_near(p.color_weights, golden, "weights.color");
+    check_near(p.white_balance_weights, golden, "weights.white_balance");
+    check_near(p.gain_weights, golden, "weights.gain");
+    check_near(std::vector<float>{ p.gain }, golden, "parameters.gain");
+    check_near(std::vector<float>{ p.gamma }, golden, "parameters.gamma");
+    check_near(p.color, golden, "parameters.color");
+    check_near(p.white_balance, golden, "parameters.white_balance");
+    check_mixed_kernels(golden, p);
+    check_near(every_fourth(trace.after_tone), golden, "thumb.after_tone");
+    check_near(every_fourth(trace.after_gamma), golden, "thumb.after_gamma");
+    check_near(every_fourth(trace.after_color), golden, "thumb.after_color");
+    check_near(every_fourth(trace.after_white_balance), golden, "thumb.after_white_balance");
+    check_near(every_fourth(trace.after_gain), golden, "thumb.after_gain");
+}
+
+std::vector<float> applied(const Golden& golden, const Parameters& parameters, const std::string& name,
+                           Direction direction)
+{
+    const Tensor& image = golden.values.at(name);
+    const int height = static_cast<int>(image.shape[0]), width = static_cast<int>(image.shape[1]);
+    Expected<std::shared_ptr<const Applier>> applier = Applier::create(*golden.model, parameters, direction);
+    REQUIRE_MESSAGE(applier, (applier ? "" : applier.error().message));
+    std::vector<float> result(image.values.size());
+    const Status status = (*applier)->run({ image.values.data(), width, height, 3, 3 * width },
+                                          { result.data(), width, height, 3, 3 * width });
+    REQUIRE_MESSAGE(status, status.error().message);
+    return result;
+}
+
+void check_images(const Golden& golden)
+{
+    Expected<Parameters> parameters =
+        srisp::select(*golden.model, golden.thumbnail("source"), golden.thumbnail("reference"));
+    REQUIRE_MESSAGE(parameters, (parameters ? "" : parameters.error().message));
+    check_near(applied(golden, *parameters, "image.source", Direction::reverse), golden, "image.reverse");
+
+    // C v cancels near 0 and v^(1/γ) magnifies the last bit there, hence a bound for nearly all and one for every
+    // value.
+    const Difference forward = compare(applied(golden, *parameters, "image.reverse", Direction::forward),
+                                       golden.at("image.forward_of_reverse"));
+    INFO("image.forward_of_reverse: ", forward.text);
+    CHECK(forward.percentile_99_9 <= 1e-5);
+    CHECK(forward.largest <= 1e-3);
+}
+
+} // namespace
+
+TEST_CASE("select and apply match the golden values of all three models on every instruction set")
+{
+    SKIP_WITHOUT_SHARED("golden/values_spatial.safetensors");
+    for (const char* name : { "spatial", "pointwise", "paper" }) {
+        INFO("model ", name);
+        const Golden golden = load_golden(name);
+        on_each_instruction_set([&] {
+            check_selection(golden);
+            check_images(golden);
+        });
+    }
+}
