@@ -6,6 +6,7 @@
 #include "../scratch_folder.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 TEST_CASE("plain words stay as they are, others are quoted")
 {

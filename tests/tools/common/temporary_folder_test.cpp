@@ -13,6 +13,7 @@
 #include "../scratch_folder.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 namespace fs = std::filesystem;
 
 namespace {

@@ -12,6 +12,7 @@
 #include "../scratch_folder.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 namespace OCIO = OCIO_NAMESPACE;
 
 namespace {

@@ -7,6 +7,7 @@
 #include "../scratch_folder.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 static std::string joined(const std::vector<OutputName>& names)
 {

@@ -12,6 +12,7 @@
 #include "shared_files.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 namespace {
 

@@ -10,6 +10,7 @@
 #include "model/safetensors_writer.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include "../scratch_folder.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 TEST_CASE("a table is read with quotes, empty fields, Windows line ends and a missing last line end")
 {

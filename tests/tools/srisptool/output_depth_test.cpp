@@ -10,6 +10,7 @@
 #include "../scratch_folder.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 TEST_CASE("the depth of a format is known by its extension, in any case and behind any name")
 {

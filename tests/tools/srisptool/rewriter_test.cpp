@@ -7,6 +7,7 @@
 #include "../scratch_folder.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 using Words = std::vector<std::string>;
 
 namespace {
