@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "../scratch_folder.h"
+#include "scratch_folder.h"
 
 using namespace srisp;
 using namespace srisp::tool;

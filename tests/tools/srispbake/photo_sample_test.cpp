@@ -6,7 +6,7 @@
 #include <OpenImageIO/imagebuf.h>
 
 #include "../failure_of.h"
-#include "../scratch_folder.h"
+#include "scratch_folder.h"
 
 using namespace srisp;
 using namespace srisp::tool;

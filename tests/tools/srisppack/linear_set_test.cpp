@@ -5,9 +5,9 @@
 
 #include <doctest/doctest.h>
 
-#include "../scratch_folder.h"
 #include "base/half_float.h"
 #include "model/safetensors_writer.h"
+#include "scratch_folder.h"
 
 using namespace srisp;
 using namespace srisp::tool;

@@ -5,7 +5,7 @@
 
 #include "../../../tools/srisppack/csv_table.h"
 #include "../failure_of.h"
-#include "../scratch_folder.h"
+#include "scratch_folder.h"
 
 using namespace srisp;
 using namespace srisp::tool;

@@ -9,7 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "../failure_of.h"
-#include "../scratch_folder.h"
+#include "scratch_folder.h"
 
 using namespace srisp;
 using namespace srisp::tool;
