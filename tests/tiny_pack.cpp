@@ -5,7 +5,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "base/xxh64.h"
+#include "base/hashes.h"
 #include "pack/training_pack_writer.h"
 
 using namespace srisp;

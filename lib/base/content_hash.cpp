@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/content_hash.h"
+#include "base/hashes.h"
 
 #include <cerrno>
 #include <cstdio>

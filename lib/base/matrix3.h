@@ -12,15 +12,50 @@ using Matrix3 = std::array<float, 9>;
 constexpr Matrix3 kSrgbToXyz{ 0.4124564f, 0.3575761f, 0.1804375f, 0.2126729f, 0.7151522f,
                               0.0721750f, 0.0193339f, 0.1191920f, 0.9503041f };
 
-/// a · b: b first, then a.
-Matrix3 product(const Matrix3& a, const Matrix3& b);
+/// Cofactor of element (row, column).
+inline double cofactor(const Matrix3& m, int row, int column)
+{
+    const int r1 = (row + 1) % 3, r2 = (row + 2) % 3, c1 = (column + 1) % 3, c2 = (column + 2) % 3;
+    return double(m[r1 * 3 + c1]) * m[r2 * 3 + c2] - double(m[r1 * 3 + c2]) * m[r2 * 3 + c1];
+}
 
-double determinant(const Matrix3& m);
+/// a · b: b first, then a.
+inline Matrix3 product(const Matrix3& a, const Matrix3& b)
+{
+    Matrix3 result{};
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            for (int k = 0; k < 3; ++k)
+                result[row * 3 + column] += a[row * 3 + k] * b[k * 3 + column];
+    return result;
+}
+
+inline double determinant(const Matrix3& m)
+{
+    return m[0] * cofactor(m, 0, 0) + m[1] * cofactor(m, 0, 1) + m[2] * cofactor(m, 0, 2);
+}
 
 /// The inverse, computed in double; m must not be singular.
-Matrix3 inverse(const Matrix3& m);
+inline Matrix3 inverse(const Matrix3& m)
+{
+    const double scale = 1 / determinant(m);
+    Matrix3 result;
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            result[row * 3 + column] = static_cast<float>(cofactor(m, column, row) * scale);
+    return result;
+}
 
 /// Each row divided by its signed sum, which must not be 0.
-Matrix3 row_normalized(const Matrix3& m);
+inline Matrix3 row_normalized(const Matrix3& m)
+{
+    Matrix3 result = m;
+    for (int row = 0; row < 3; ++row) {
+        const float sum = m[row * 3] + m[row * 3 + 1] + m[row * 3 + 2];
+        for (int column = 0; column < 3; ++column)
+            result[row * 3 + column] /= sum;
+    }
+    return result;
+}
 
 } // namespace srisp

@@ -9,7 +9,7 @@ namespace srisp {
 
 namespace {
 
-constexpr int kSide = CubeTransform::kSide, kPlane = kSide * kSide;
+constexpr int kSide = CubeFft::kSide, kPlane = kSide * kSide;
 
 /// exp(−2πi j / 32)
 struct Roots {
@@ -80,7 +80,7 @@ void transpose(float* plane)
 
 } // namespace
 
-int CubeTransform::place(int k)
+int CubeFft::place(int k)
 {
     int reversed = 0;
     for (int bit = 1; bit < kSide; bit *= 2)
@@ -88,13 +88,13 @@ int CubeTransform::place(int k)
     return reversed;
 }
 
-void CubeTransform::transform_x(Columns columns)
+void CubeFft::transform_x(Columns columns)
 {
     for (int y = 0; y < kSide; ++y)
         columns(real() + y * kSide, imaginary() + y * kSide, kPlane);
 }
 
-void CubeTransform::transform_planes(Columns columns)
+void CubeFft::transform_planes(Columns columns)
 {
     for (int x = 0; x < kSide; ++x) {
         float *const plane_real = real() + x * kPlane, *const plane_imaginary = imaginary() + x * kPlane;
@@ -105,13 +105,13 @@ void CubeTransform::transform_planes(Columns columns)
     }
 }
 
-void CubeTransform::forward()
+void CubeFft::forward()
 {
     transform_x(forward_columns);
     transform_planes(forward_columns);
 }
 
-void CubeTransform::inverse()
+void CubeFft::inverse()
 {
     transform_planes(inverse_columns);
     transform_x(inverse_columns);

@@ -7,11 +7,11 @@ namespace srisp {
 
 /// 32 × 32 × 32 complex values and their discrete Fourier transform, float32. Both directions work in place, leave out
 /// the factor 1 / 32³, and take the least effort for convolutions: the spectrum is in an order of its own.
-class CubeTransform {
+class CubeFft {
 public:
     static constexpr int kSide = 32, kCells = kSide * kSide * kSide;
 
-    CubeTransform() : m_real(kCells), m_imaginary(kCells) {}
+    CubeFft() : m_real(kCells), m_imaginary(kCells) {}
 
     /// Cell (x, y, z) is at (x · 32 + y) · 32 + z; in the spectrum, the frequencies (x, y, z) are at
     /// (place(x) · 32 + place(z)) · 32 + place(y).

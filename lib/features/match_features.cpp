@@ -12,7 +12,7 @@ namespace srisp {
 
 namespace {
 
-constexpr int kSide = CubeTransform::kSide, kCells = CubeTransform::kCells;
+constexpr int kSide = CubeFft::kSide, kCells = CubeFft::kCells;
 constexpr double kGammas[] = { 1.65, 2.2, 2.9 }, kSourceGamma = 2.2;
 constexpr Matrix3 kCamera = { 0.60f, 0.32f, 0.08f, 0.15f, 0.70f, 0.15f, 0.05f, 0.28f, 0.67f };
 
@@ -110,7 +110,7 @@ std::array<std::array<float, kSide>, 2> smoothing()
     for (int s = 0; s < 2; ++s)
         for (int k = 0; k < kSide; ++k) {
             const double frequency = 2 * M_PI * (k < kSide / 2 ? k : k - kSide) / kSide * kSmoothing[s];
-            factors[s][CubeTransform::place(k)] = static_cast<float>(std::exp(-0.5 * frequency * frequency) / kSide);
+            factors[s][CubeFft::place(k)] = static_cast<float>(std::exp(-0.5 * frequency * frequency) / kSide);
         }
     return factors;
 }
@@ -120,14 +120,14 @@ std::array<int, kSide> opposite_places()
 {
     std::array<int, kSide> places;
     for (int k = 0; k < kSide; ++k)
-        places[CubeTransform::place(k)] = CubeTransform::place((kSide - k) % kSide);
+        places[CubeFft::place(k)] = CubeFft::place((kSide - k) % kSide);
     return places;
 }
 
 /// From two real cubes as real and imaginary part of one to their cross-correlation, smoothed by the first Gaussian (in
 /// the real part) and by the second (in the imaginary one). Spectra of real cubes have opposite frequencies conjugate,
 /// so two pass through each transform.
-void correlate(CubeTransform& cube)
+void correlate(CubeFft& cube)
 {
     static const auto smooth = smoothing();
     static const auto opposite = opposite_places();
@@ -204,7 +204,7 @@ std::array<float, kMatchFeatures> match_features(const ReducedImage& linear_sour
     const std::vector<float> reference_roots = root_histogram(reference);
     std::array<float, kMatchFeatures> features;
     float* next = features.data();
-    CubeTransform cube;
+    CubeFft cube;
     for (const double gamma : kGammas) {
         const ReducedImage seen = seen_by_camera(linear_source, gamma);
         const std::vector<float> roots = root_histogram(seen);

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "features/reduced_image.h"
+#include "features/image_features.h"
 
 namespace srisp {
 

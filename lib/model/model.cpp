@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <srisp/model.h>
 
-#include "base/content_hash.h"
+#include "base/hashes.h"
+#include "base/input_file.h"
+#include "model/model_data.h"
 #include "model/model_files.h"
-#include "model/model_parser.h"
 #include "model/safetensors.h"
 
 namespace srisp {

@@ -3,9 +3,12 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <srisp/expected.h>
 
 #include "base/matrix3.h"
 
@@ -14,7 +17,7 @@ namespace srisp {
 constexpr int kToneLayers = 4;
 
 /// y = weight · x + bias; weight is [outputs, inputs].
-struct Linear {
+struct DenseLayer {
     int inputs = 0, outputs = 0;
     std::vector<float> weight, bias;
 };
@@ -31,7 +34,7 @@ using EncoderWeights = std::vector<ConvolutionWeights>;
 /// What chooses the parameters of one block: project and head once per dictionary (tone: one per layer).
 struct BlockSelector {
     EncoderWeights encoder;
-    std::vector<Linear> project, head;
+    std::vector<DenseLayer> project, head;
 };
 
 using ToneDictionary = std::array<ConvolutionWeights, kToneLayers>;
@@ -42,11 +45,12 @@ struct ModelData {
     std::map<std::string, std::string> metadata;
     int kernel_size = 3, dictionary_size = 5;
     bool perceptual_encoder_input = true;
+    bool white_stays_white = false; ///< the least white-balance gain is 1 (srisp-6); else the green one is (srisp-1)
 
     EncoderWeights source_encoder, reference_encoder;
-    std::optional<Linear> source_statistics, reference_statistics, anchor;
-    std::vector<Linear> anchor_network; ///< empty in srisp-1
-    Linear fuse;
+    std::optional<DenseLayer> source_statistics, reference_statistics, anchor;
+    std::vector<DenseLayer> anchor_network; ///< empty in srisp-1
+    DenseLayer fuse;
     BlockSelector tone, gamma, color, white_balance, gain;
 
     std::vector<float> gain_atoms, gamma_atoms;
@@ -54,11 +58,13 @@ struct ModelData {
     std::vector<Matrix3> color_atoms;                      ///< C, rows normalised to sum to 1
     ToneDictionary tone_reverse, tone_forward;
 
-    /// Whether the least white-balance gain is 1; in srisp-1 the green one is.
-    bool white_stays_white() const { return !anchor_network.empty(); }
     /// Whether the forward pass sets white that the RAW has clipped in some channels to the brightest one: with gains
     /// of at least 1 it is clipped in all of them anyway.
-    bool rebuilds_highlights(float global_gain) const { return white_stays_white() && 1 / global_gain > 1; }
+    bool rebuilds_highlights(float global_gain) const { return white_stays_white && 1 / global_gain > 1; }
 };
+
+/// Checks the bytes of a model file in full and brings it to float32; name, path and hash stay empty. `where` starts
+/// every message ("model 'm.safetensors'").
+Expected<std::unique_ptr<ModelData>> parse_model(const std::string& bytes, const std::string& where);
 
 } // namespace srisp

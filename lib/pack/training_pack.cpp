@@ -5,8 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "base/mapped_file.h"
-#include "base/xxh64.h"
+#include "base/hashes.h"
+#include "base/input_file.h"
 #include "model/safetensors.h"
 #include "pack/training_pack_index.h"
 

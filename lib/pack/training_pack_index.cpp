@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-#include "base/json_object_reader.h"
-#include "base/strict_json.h"
+#include "base/json_object.h"
 
 namespace srisp {
 

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "base/mapped_file.h"
-#include "base/xxh64.h"
-#include "model/safetensors_writer.h"
+#include "base/hashes.h"
+#include "base/input_file.h"
+#include "model/safetensors.h"
 
 namespace srisp {
 

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/json_object_reader.h"
+#include "base/json_object.h"
 #include "parameters/parameter_checks.h"
 
 namespace srisp {

@@ -8,7 +8,6 @@
 #include <OpenImageIO/strutil.h>
 
 #include "base/matrix3.h"
-#include "camera/daylight_matrix.h"
 #include "record/record_line.h"
 
 namespace srisp {
@@ -98,7 +97,7 @@ void record_facts(OIIO::ImageSpec& spec, const CameraFacts& facts, const float n
         const std::vector<float> noise(facts.noise_profile.begin(), facts.noise_profile.end());
         set(spec, "reference_noise_profile", noise.data(), static_cast<int>(noise.size()));
     }
-    if (const CameraFacts::ColorMatrix* matrix = daylight_matrix(facts)) {
+    if (const CameraFacts::ColorMatrix* matrix = facts.daylight_matrix()) {
         spec.attribute(std::string(kPrefix) + "xyz_to_camera", OIIO::TypeMatrix33, matrix->xyz_to_camera.data());
         if (matrix->illuminant)
             spec.attribute(std::string(kPrefix) + "xyz_to_camera_illuminant", matrix->illuminant);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/matrix3.h"
-#include "camera/daylight_matrix.h"
 #include "photo/color_management.h"
 
 namespace srisp {
@@ -36,7 +35,7 @@ std::array<float, 3> white_balance(const Reference& reference)
 
 Matrix3 camera_to_srgb(const CameraFacts& facts)
 {
-    const CameraFacts::ColorMatrix* matrix = daylight_matrix(facts);
+    const CameraFacts::ColorMatrix* matrix = facts.daylight_matrix();
     const Matrix3 srgb_to_camera = matrix ? product(matrix->xyz_to_camera, kSrgbToXyz) : Matrix3{};
     if (!matrix || std::abs(determinant(srgb_to_camera)) < 1e-9)
         return { 1, 0, 0, 0, 1, 0, 0, 0, 1 };

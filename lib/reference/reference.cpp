@@ -7,8 +7,8 @@
 
 #include <srisp/thumbnail.h>
 
-#include "base/content_hash.h"
 #include "base/file_bytes.h"
+#include "base/hashes.h"
 #include "reference/camera_files.h"
 #include "reference/dng_levels.h"
 #include "reference/float_dng.h"

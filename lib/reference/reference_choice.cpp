@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "base/seeded_hash.h"
+#include "base/hashes.h"
 #include "reference/camera_files.h"
 
 namespace srisp {

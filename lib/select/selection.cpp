@@ -6,11 +6,9 @@
 #include <functional>
 
 #include "apply/tone_map.h"
+#include "features/image_features.h"
 #include "features/match_features.h"
-#include "features/quantile_features.h"
-#include "features/statistics.h"
-#include "select/encoder.h"
-#include "select/linear_layer.h"
+#include "select/layers.h"
 
 namespace srisp {
 
@@ -83,7 +81,8 @@ private:
         return encode(encoder, std::move(input));
     }
 
-    void add_statistics(std::vector<float>& features, const Linear& layer, const std::array<float, 12>& numbers) const
+    void add_statistics(std::vector<float>& features, const DenseLayer& layer,
+                        const std::array<float, 12>& numbers) const
     {
         const std::vector<float> extra = transformed(layer, { numbers.begin(), numbers.end() });
         std::transform(features.begin(), features.end(), extra.begin(), features.begin(), std::plus<float>());
@@ -210,7 +209,7 @@ private:
         append(numbers, m_source_quantiles);
         append(numbers, m_reference_quantiles);
         append(numbers, m_match);
-        for (const Linear& layer : m_model.anchor_network) {
+        for (const DenseLayer& layer : m_model.anchor_network) {
             numbers = transformed(layer, numbers);
             if (&layer != &m_model.anchor_network.back())
                 for (float& v : numbers)
@@ -246,7 +245,7 @@ private:
         };
         const auto product = [&](const std::array<float, 2>& atom) {
             const float r = atom[0] * red, b = atom[1] * blue;
-            const float one = m_model.white_stays_white() ? std::min({ r, 1.0f, b }) : 1.0f;
+            const float one = m_model.white_stays_white ? std::min({ r, 1.0f, b }) : 1.0f;
             return std::array<float, 3>{ r / one, 1 / one, b / one };
         };
         m_parameters.white_balance_weights = candidate_weights(m_model.white_balance, [&](int atom, Planes out) {

@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "feature_encoder.h"
+#include "features/image_features.h"
 #include "features/match_features.h"
-#include "features/quantile_features.h"
 
 namespace srisp::train {
 

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/input_file.h"
 #include "model/safetensors.h"
-#include "model/safetensors_writer.h"
 
 namespace srisp::train {
 

@@ -5,9 +5,8 @@
 
 #include <ATen/Parallel.h>
 
+#include "features/image_features.h"
 #include "features/match_features.h"
-#include "features/quantile_features.h"
-#include "features/statistics.h"
 
 namespace srisp::train {
 

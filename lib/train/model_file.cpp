@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/half_float.h"
-#include "model/model_parser.h"
+#include "base/input_file.h"
+#include "model/model_data.h"
 #include "model/safetensors.h"
-#include "model/safetensors_writer.h"
 #include "network.h"
 #include "settings_json.h"
 

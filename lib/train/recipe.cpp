@@ -5,9 +5,10 @@
 #include <filesystem>
 #include <set>
 
+#include "base/input_file.h"
+#include "base/json_object.h"
 #include "base/near_names.h"
 #include "base/shared_folder.h"
-#include "base/strict_json.h"
 #include "model/safetensors.h"
 
 namespace srisp::train {

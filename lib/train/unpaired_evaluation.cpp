@@ -9,9 +9,9 @@
 #include "evaluation.h"
 #include "evenly_spread.h"
 #include "interleaved_images.h"
-#include "metrics/rank_correlation.h"
 #include "packed_images.h"
 #include "test_renderings.h"
+#include <srisp/metrics.h>
 
 namespace srisp::train {
 

@@ -11,7 +11,7 @@
 #include <srisp/reference.h>
 #include <srisp/select.h>
 
-#include "base/content_hash.h"
+#include "base/hashes.h"
 #include "base/recently_kept.h"
 
 namespace srisp {

@@ -10,7 +10,6 @@
 #include <srisp/select.h>
 #include <srisp/thumbnail.h>
 
-#include "metrics/rank_correlation.h"
 #include "require.h"
 
 using namespace srisp;

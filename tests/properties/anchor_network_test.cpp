@@ -10,11 +10,12 @@
 #include <nlohmann/json.hpp>
 #include <srisp/model.h>
 
+#include "base/input_file.h"
+#include "features/image_features.h"
 #include "features/match_features.h"
-#include "features/quantile_features.h"
 #include "image_compare.h"
 #include "kernels/pointwise.h"
-#include "model/model_parser.h"
+#include "model/model_data.h"
 #include "random_model.h"
 #include "select/selection.h"
 #include "shared_files.h"

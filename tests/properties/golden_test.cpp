@@ -6,6 +6,7 @@
 #include <srisp/select.h>
 
 #include "apply/tone_map.h"
+#include "base/input_file.h"
 #include "each_target.h"
 #include "image_compare.h"
 #include "model/safetensors.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/seeded_hash.h"
+#include "base/hashes.h"
 
 namespace srisp::tool {
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/input_file.h"
 #include "model/safetensors.h"
 
 #include "../common/failure.h"

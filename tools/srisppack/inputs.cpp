@@ -9,7 +9,7 @@
 
 #include "../common/failure.h"
 #include "base/file_bytes.h"
-#include "base/seeded_hash.h"
+#include "base/hashes.h"
 #include "camera_folder.h"
 #include "reference/camera_files.h"
 

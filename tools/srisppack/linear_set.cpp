@@ -9,9 +9,9 @@
 #include <sstream>
 
 #include "base/half_float.h"
-#include "base/mapped_file.h"
+#include "base/input_file.h"
 #include "crops.h"
-#include "model/safetensors_header.h"
+#include "model/safetensors.h"
 #include "thumbnail/area_squasher.h"
 #include "unmasked_part.h"
 

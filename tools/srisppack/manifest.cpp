@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/hashes.h"
 #include "base/near_names.h"
-#include "base/seeded_hash.h"
 
 #include "../common/failure.h"
 #include "csv_table.h"

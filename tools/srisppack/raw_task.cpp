@@ -8,7 +8,6 @@
 #include <srisp/reference.h>
 
 #include "base/matrix3.h"
-#include "camera/daylight_matrix.h"
 #include "crops.h"
 #include "thumbnail/area_squasher.h"
 
@@ -44,7 +43,7 @@ void set_white_balance(const CameraFacts& facts, PackEntry& image)
 /// [method 4, as UPI]
 void set_color(const CameraFacts& facts, PackEntry& image)
 {
-    const CameraFacts::ColorMatrix* found = daylight_matrix(facts);
+    const CameraFacts::ColorMatrix* found = facts.daylight_matrix();
     if (!found)
         return;
     const Matrix3 camera = product(found->xyz_to_camera, kSrgbToXyz);

@@ -9,7 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "../common/failure.h"
-#include "base/strict_json.h"
+#include "base/input_file.h"
+#include "base/json_object.h"
 #include "csv_table.h"
 #include "model/safetensors.h"
 

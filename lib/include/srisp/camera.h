@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <srisp/export.h>
+
 namespace srisp {
 
 /// What a RAW file says of its camera and exposure. Levels are in the file's own units. Zero or empty: not known.
@@ -21,6 +23,8 @@ struct CameraFacts {
         int illuminant = 0;
     };
     std::vector<ColorMatrix> color_matrices;
+    /// The matrix for D65, else the first one; null where there is none.
+    SRISP_API const ColorMatrix* daylight_matrix() const;
     std::array<float, 3> as_shot_neutral{}; ///< camera RGB of a neutral surface, G = 1
     float iso = 0, exposure_time_s = 0, f_number = 0;
     std::vector<double> noise_profile; ///< DNG NoiseProfile: pairs of shot and read noise, of values in [0,1]

@@ -65,4 +65,8 @@ private:
     std::int64_t m_pixels = 0;
 };
 
+/// Spearman's rank correlation of two lists of equal length, −1 … 1; equal values share the mean of their ranks. NaN
+/// where one of the lists is constant or shorter than two.
+SRISP_API double rank_correlation(const std::vector<double>& a, const std::vector<double>& b);
+
 } // namespace srisp

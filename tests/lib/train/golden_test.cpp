@@ -2,6 +2,7 @@
 // Every step of the LibTorch network against the values of an independent implementation.
 #include <doctest/doctest.h>
 
+#include "base/input_file.h"
 #include "model/safetensors.h"
 #include "model_file.h"
 #include "network.h"

@@ -5,7 +5,8 @@
 
 #include <doctest/doctest.h>
 
-#include "model/model_parser.h"
+#include "base/input_file.h"
+#include "model/model_data.h"
 #include "model/safetensors.h"
 #include "network.h"
 #include "random_model.h"

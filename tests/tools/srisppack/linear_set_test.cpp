@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "base/half_float.h"
-#include "model/safetensors_writer.h"
+#include "model/safetensors.h"
 #include "scratch_folder.h"
 
 using namespace srisp;

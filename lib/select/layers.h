@@ -9,6 +9,15 @@
 
 namespace srisp {
 
+/// weight · x + bias; sums in double.
+std::vector<float> transformed(const DenseLayer& layer, const std::vector<float>& x);
+
+/// The elements of `a`, then those of `b`.
+std::vector<float> concatenated(std::vector<float> a, const std::vector<float>& b);
+
+/// exp(x) / Σ exp(x), computed in double without overflow.
+std::vector<float> softmax(const std::vector<float>& x);
+
 /// Planes that go into a stride-2 convolution, with a border of zeros. Even and odd columns lie apart, so that the taps
 /// of neighbouring outputs are neighbours in memory and `convolve_row` serves here too.
 class StridedInput {

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include <srisp/expected.h>
 
 namespace srisp {
+
+/// Reads a whole file of at most `max_bytes`; `where` starts every message ("model 'm.safetensors'").
+Expected<std::string> read_file(const std::string& path, std::uint64_t max_bytes, const std::string& where);
 
 /// A whole file, mapped for reading: pages come from disk when they are touched, and are shared between processes. It
 /// must not be made shorter meanwhile.

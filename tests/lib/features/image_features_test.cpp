@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "features/quantiles.h"
+#include "features/image_features.h"
 
 #include <algorithm>
 #include <cmath>

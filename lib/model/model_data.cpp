@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "model/model_parser.h"
+#include "model/model_data.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/near_names.h"
+#include "features/image_features.h"
 #include "features/match_features.h"
-#include "features/quantile_features.h"
 #include "model/safetensors.h"
 
 namespace srisp {
@@ -40,7 +40,7 @@ public:
         return std::move(tensor.values);
     }
 
-    Linear take_linear(const std::string& name, int outputs, int inputs)
+    DenseLayer take_dense(const std::string& name, int outputs, int inputs)
     {
         return { inputs, outputs, take(name + ".weight", { outputs, inputs }), take(name + ".bias", { outputs }) };
     }
@@ -140,8 +140,8 @@ BlockSelector take_selector(TensorTaker& file, const std::string& block, int inp
     selector.encoder = file.take_encoder(block + ".encoder", { inputs, 32, 32, 32, 32 });
     for (int l = 0; l < layers; ++l) {
         const std::string suffix = layers > 1 ? "." + std::to_string(l) : "";
-        selector.project.push_back(file.take_linear(block + ".project" + suffix, 32, 128));
-        selector.head.push_back(file.take_linear(block + ".head" + suffix, dictionary_size, 32));
+        selector.project.push_back(file.take_dense(block + ".project" + suffix, 32, 128));
+        selector.head.push_back(file.take_dense(block + ".head" + suffix, dictionary_size, 32));
     }
     return selector;
 }
@@ -203,7 +203,7 @@ struct Parts {
 Status read_settings(ModelData& model, const std::string& where, Parts& parts)
 {
     MetadataReader metadata(model.metadata, where);
-    parts.anchor_network = metadata.one_of("format", { "srisp-1", "srisp-6" }) == "srisp-6";
+    parts.anchor_network = model.white_stays_white = metadata.one_of("format", { "srisp-1", "srisp-6" }) == "srisp-6";
     model.kernel_size = metadata.one_of("kernel_size", { "3", "1" }) == "1" ? 1 : 3;
     model.dictionary_size = metadata.count("dictionary_size", kMaxDictionarySize);
     model.perceptual_encoder_input = metadata.one_of("encoder_input", { "perceptual", "plain" }) == "perceptual";
@@ -238,18 +238,18 @@ Expected<std::unique_ptr<ModelData>> parse_model(const std::string& bytes, const
     model->source_encoder = tensors.take_encoder("source_encoder", { 3, 32, 64, 128, 128, 128 });
     model->reference_encoder = tensors.take_encoder("reference_encoder", { 3, 32, 64, 128, 128, 128 });
     if (parts.statistics) {
-        model->source_statistics = tensors.take_linear("source_statistics", 128, 12);
-        model->reference_statistics = tensors.take_linear("reference_statistics", 128, 12);
+        model->source_statistics = tensors.take_dense("source_statistics", 128, 12);
+        model->reference_statistics = tensors.take_dense("reference_statistics", 128, 12);
     }
     if (parts.anchor)
-        model->anchor = tensors.take_linear("anchor", 3, 24);
+        model->anchor = tensors.take_dense("anchor", 3, 24);
     if (parts.anchor_network)
         model->anchor_network = {
-            tensors.take_linear("anchor_network.0", 256, 24 + 2 * kQuantileFeatures + kMatchFeatures),
-            tensors.take_linear("anchor_network.1", 256, 256), tensors.take_linear("anchor_network.2", 256, 256),
-            tensors.take_linear("anchor_network.3", 3, 256)
+            tensors.take_dense("anchor_network.0", 256, 24 + 2 * kQuantileFeatures + kMatchFeatures),
+            tensors.take_dense("anchor_network.1", 256, 256), tensors.take_dense("anchor_network.2", 256, 256),
+            tensors.take_dense("anchor_network.3", 3, 256)
         };
-    model->fuse = tensors.take_linear("fuse", 128, 256);
+    model->fuse = tensors.take_dense("fuse", 128, 256);
     model->tone = take_selector(tensors, "tone", 3, atoms, kToneLayers);
     model->gamma = take_selector(tensors, "gamma", candidates, atoms, 1);
     model->color = take_selector(tensors, "color", candidates, atoms, 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/xxh64.h"
+#include "base/hashes.h"
 
 #include <cstdint>
 #include <cstdio>
@@ -66,6 +66,17 @@ std::string xxh64_of_bytes(const void* data, std::size_t size)
     std::snprintf(text, sizeof text, "xxh64:%016llx",
                   static_cast<unsigned long long>(xxh64(static_cast<const unsigned char*>(data), size)));
     return text;
+}
+
+std::uint64_t seeded_hash(std::uint64_t seed, const std::string& text)
+{
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const char c : text)
+        hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    std::uint64_t z = hash + (seed + 1) * 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
 }
 
 } // namespace srisp
