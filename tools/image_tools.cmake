@@ -36,6 +36,5 @@ install(TARGETS output_guard DESTINATION ${CMAKE_INSTALL_LIBDIR}/srisp)
 srisp_image_tool(srisppack srisp_static srisp_pack)
 srisp_man_page(srisppack --help)
 
-srisp_image_tool(srispbake srisp_ocio_static)
-target_include_directories(srispbake_parts PUBLIC ${PROJECT_SOURCE_DIR}/ocio/src)
+srisp_image_tool(srispbake srisp_ocio_operators)
 srisp_man_page(srispbake --help)

@@ -6,15 +6,14 @@
 #include <string>
 
 #include <srisp/expected.h>
-#include <srisp/export.h>
 
 namespace srisp {
 
 /// "xxh128:" and 32 hex digits: XXH3 with 128 bits and seed 0, as `xxh128sum` prints it.
 std::string hash_of_bytes(const void* data, std::size_t size);
 
-/// The same of a whole file; the error names it. Exported for our own OpenColorIO library.
-SRISP_API Expected<std::string> hash_of_file(const std::string& path);
+/// The same of a whole file; the error names it.
+Expected<std::string> hash_of_file(const std::string& path);
 
 /// "xxh64:" and 16 hex digits: XXH64 with seed 0, as `xxh64sum` prints it. Faster than a disk reads. Own code, since
 /// packs must be readable where there is no libxxhash. (https://github.com/Cyan4973/xxHash, doc/xxhash_spec.md)

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 
 #include <OpenImageIO/strutil.h>
 
 #include "base/matrix3.h"
-#include "record/record_line.h"
+#include "record/record.h"
 
 namespace srisp {
 
@@ -16,12 +17,10 @@ namespace {
 
 namespace Strutil = OIIO::Strutil;
 
-const char kPrefix[] = "unprocess:";
-
 /// Whether an attribute describes the encoding or the pixel values of the image that a result was made from.
 bool describes_source(OIIO::string_view name)
 {
-    const std::initializer_list<const char*> prefixes = { kPrefix,
+    const std::initializer_list<const char*> prefixes = { attribute::kPrefix,
                                                           "ICCProfile",
                                                           "Exif:ColorSpace",
                                                           "Exif:Gamma",
@@ -48,21 +47,10 @@ bool describes_source(OIIO::string_view name)
                        [&](const char* prefix) { return Strutil::istarts_with(name, prefix); });
 }
 
-void set(OIIO::ImageSpec& spec, const std::string& name, const std::string& value)
+void set(OIIO::ImageSpec& spec, const char* name, const std::string& value)
 {
     if (!value.empty())
-        spec.attribute(kPrefix + name, value);
-}
-
-void set(OIIO::ImageSpec& spec, const std::string& name, float value)
-{
-    if (value > 0)
-        spec.attribute(kPrefix + name, value);
-}
-
-void set(OIIO::ImageSpec& spec, const std::string& name, const float* values, int count)
-{
-    spec.attribute(kPrefix + name, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, count), values);
+        spec.attribute(name, value);
 }
 
 /// CIE xy of the camera RGB that is neutral in the result (OpenEXR's meaning of the attribute).
@@ -80,44 +68,19 @@ void set_adopted_neutral(OIIO::ImageSpec& spec, const Matrix3& xyz_to_camera, co
         spec.attribute("adoptedNeutral", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::VEC2), xy);
 }
 
-void record_facts(OIIO::ImageSpec& spec, const CameraFacts& facts, const float neutral[3])
-{
-    set(spec, "reference_make", facts.make);
-    set(spec, "reference_model", facts.model);
-    set(spec, "reference_cfa_pattern", facts.cfa_pattern);
-    set(spec, "reference_iso", facts.iso);
-    set(spec, "reference_exposure_time", facts.exposure_time_s);
-    set(spec, "reference_f_number", facts.f_number);
-    set(spec, "reference_white_level", facts.white_level);
-    if (facts.white_level > 0)
-        set(spec, "reference_black_level", facts.black_level.data(), 4);
-    if (facts.as_shot_neutral[1] > 0)
-        set(spec, "reference_as_shot_neutral", facts.as_shot_neutral.data(), 3);
-    if (!facts.noise_profile.empty()) {
-        const std::vector<float> noise(facts.noise_profile.begin(), facts.noise_profile.end());
-        set(spec, "reference_noise_profile", noise.data(), static_cast<int>(noise.size()));
-    }
-    if (const CameraFacts::ColorMatrix* matrix = facts.daylight_matrix()) {
-        spec.attribute(std::string(kPrefix) + "xyz_to_camera", OIIO::TypeMatrix33, matrix->xyz_to_camera.data());
-        if (matrix->illuminant)
-            spec.attribute(std::string(kPrefix) + "xyz_to_camera_illuminant", matrix->illuminant);
-        set_adopted_neutral(spec, matrix->xyz_to_camera, neutral);
-    }
-}
-
 /// The record in an image; ImageDescription is what most formats keep.
-bool read_record(const OIIO::ImageSpec& spec, RecordLine& record)
+std::optional<RecordLine> read_record(const OIIO::ImageSpec& spec)
 {
-    return find_record(spec.get_string_attribute(std::string(kPrefix) + "record"), record) ||
-           find_record(spec.get_string_attribute("ImageDescription"), record);
+    const auto record = find_record(spec.get_string_attribute(attribute::kRecord));
+    return record ? record : find_record(spec.get_string_attribute("ImageDescription"));
 }
 
 /// The source's own words; where the source is a result itself, those of its source.
 std::string own_description(const OIIO::ImageSpec& spec)
 {
-    RecordLine record;
     const std::string text = spec.get_string_attribute("ImageDescription");
-    return find_record(text, record) ? record.description : text;
+    const auto record = find_record(text);
+    return record ? record->description : text;
 }
 
 void write_record(OIIO::ImageSpec& spec, const RecordLine& record)
@@ -125,7 +88,7 @@ void write_record(OIIO::ImageSpec& spec, const RecordLine& record)
     const std::string line = format_record(record);
     spec.attribute("ImageDescription", line);
     // Captions get edited; EXR keeps this one as well.
-    set(spec, "record", line);
+    set(spec, attribute::kRecord, line);
 }
 
 } // namespace
@@ -140,41 +103,44 @@ void mark_result(OIIO::ImageSpec& spec, Direction direction)
     // The name is set directly: ImageSpec::set_colorspace knows only spaces for display.
     spec.attribute("oiio:ColorSpace", reverse ? kCameraColorSpace : "sRGB");
     if (reverse)
-        set(spec, "colorspace", kCameraColorSpace);
-    set(spec, "synthetic", synthetic_mark(direction));
+        set(spec, attribute::kColorSpace, kCameraColorSpace);
+    set(spec, attribute::kSynthetic, synthetic_mark(direction));
     write_record(spec, { direction, "", description });
 }
 
 void record_result(OIIO::ImageSpec& spec, const Parameters& parameters, const CameraFacts* camera, Direction direction)
 {
     mark_result(spec, direction);
-    set(spec, "model", parameters.model_name);
-    set(spec, "model_hash", parameters.model_hash);
-    set(spec, "reference", parameters.reference_name);
-    set(spec, "reference_hash", parameters.reference_hash);
+    set(spec, attribute::kModel, parameters.model_name);
+    set(spec, attribute::kModelHash, parameters.model_hash);
+    set(spec, attribute::kReference, parameters.reference_name);
+    set(spec, attribute::kReferenceHash, parameters.reference_hash);
     if (direction == Direction::reverse) {
         const auto& [red, green, blue] = parameters.white_balance;
         const float neutral[3] = { green / red, 1, green / blue };
-        set(spec, "neutral", neutral, 3);
-        if (camera)
-            record_facts(spec, *camera, neutral);
+        spec.attribute(attribute::kNeutral, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 3), neutral);
+        if (camera) {
+            write_camera(spec, *camera);
+            if (const CameraFacts::ColorMatrix* matrix = camera->daylight_matrix())
+                set_adopted_neutral(spec, matrix->xyz_to_camera, neutral);
+        }
     }
     write_record(spec, { direction, to_json(parameters, -1), own_description(spec) });
 }
 
 Expected<Parameters> recorded_parameters(const OIIO::ImageSpec& spec, const std::string& where)
 {
-    RecordLine record;
-    if (!read_record(spec, record) || record.parameters.empty())
+    const auto record = read_record(spec);
+    if (!record || record->parameters.empty())
         return Error{ where +
                       ": holds no recorded parameters (srisp did not make it, or its ImageDescription is gone)" };
-    return parameters_from_json(record.parameters, where + ": recorded parameters");
+    return parameters_from_json(record->parameters, where + ": recorded parameters");
 }
 
 bool is_unprocessed(const OIIO::ImageSpec& spec)
 {
-    RecordLine record;
-    return read_record(spec, record) && record.direction == Direction::reverse;
+    const auto record = read_record(spec);
+    return record && record->direction == Direction::reverse;
 }
 
 } // namespace srisp

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/float_dng.h"
+#include "reference/decoders.h"
 
 #include <algorithm>
 #include <cmath>

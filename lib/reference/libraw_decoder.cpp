@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/libraw_decoder.h"
+#include "reference/decoders.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "reference/libraw_facts.h"
 #include "reference/raw_stream.h"
 
 namespace srisp {
@@ -16,25 +16,27 @@ constexpr unsigned kMostMemoryMb = 1024;
 // No decoder makes 128 pixels of a byte: then it gave up in silence and left memory as it was.
 constexpr std::size_t kMostPixelsPerByte = 128;
 
-/// Why LibRaw's data are no mosaic of R, G and B as the sensor saw them, or "".
-std::string refusal(LibRaw& raw)
+/// Whether LibRaw's data are a mosaic of R, G and B as the sensor saw them.
+Status check_sensor(LibRaw& raw)
 {
     const libraw_iparams_t& id = raw.imgdata.idata;
     if (id.is_foveon)
-        return "Foveon sensor (three layers, no mosaic): not supported";
+        return Error{ "Foveon sensor (three layers, no mosaic): not supported" };
     if (raw.is_sraw() || raw.is_coolscan_nef() || raw.imgdata.color.as_shot_wb_applied)
-        return "reduced RAW (sRAW, scans, multi-shot) holds processed values, not those of the sensor: not supported";
+        return Error{
+            "reduced RAW (sRAW, scans, multi-shot) holds processed values, not those of the sensor: not supported"
+        };
     if (id.colors == 1)
-        return "monochrome sensor: a reference needs three colours";
+        return Error{ "monochrome sensor: a reference needs three colours" };
     if (id.colors != 3)
-        return "sensor with " + std::to_string(id.colors) + " filter colours (" + std::string(id.cdesc) +
-               "): only R, G, B are supported";
+        return Error{ "sensor with " + std::to_string(id.colors) + " filter colours (" + std::string(id.cdesc) +
+                      "): only R, G, B are supported" };
     if (raw.is_fuji_rotated())
-        return "Fujifilm SuperCCD (diagonal mosaic): not supported";
+        return Error{ "Fujifilm SuperCCD (diagonal mosaic): not supported" };
     if (raw.imgdata.rawdata.ph1_cblack || raw.imgdata.rawdata.ph1_rblack || raw.imgdata.color.phase_one_data.format)
-        return "Phase One IIQ needs corrections that are not supported; convert it to DNG";
+        return Error{ "Phase One IIQ needs corrections that are not supported; convert it to DNG" };
     if (id.filters < 1000 && id.filters != LIBRAW_XTRANS)
-        return "not a mosaic of R, G and B filters: not supported";
+        return Error{ "not a mosaic of R, G and B filters: not supported" };
     return {};
 }
 
@@ -72,8 +74,8 @@ BlackLevels black_levels(LibRaw& raw, const CfaPattern& cfa)
     return black;
 }
 
-/// Opens and unpacks; why it can't, or "".
-std::string unpack(LibRaw& raw, RawStream& stream, const FileBytes& file)
+/// Opens and unpacks.
+Status unpack(LibRaw& raw, RawStream& stream, const FileBytes& file)
 {
     // LibRaw would write its complaints to stderr.
     raw.set_dataerror_handler([](void*, const char*, int) {}, nullptr);
@@ -81,30 +83,30 @@ std::string unpack(LibRaw& raw, RawStream& stream, const FileBytes& file)
     raw.imgdata.params.max_raw_memory_mb = kMostMemoryMb;
     raw.imgdata.params.raw_processing_options |= LIBRAW_PROCESSING_SRAW_NO_RGB | LIBRAW_PROCESSING_SRAW_NO_INTERPOLATE;
     if (const int code = raw.open_datastream(&stream); code != LIBRAW_SUCCESS)
-        return code == LIBRAW_FILE_UNSUPPORTED || code == LIBRAW_DATA_ERROR || code == LIBRAW_IO_ERROR
-                   ? "is not a RAW file that LibRaw " + std::string(LibRaw::version()) +
-                         " knows, or damaged or truncated"
-                   : std::string("LibRaw can't open it: ") + LibRaw::strerror(code);
-    if (const std::string why = refusal(raw); !why.empty() && raw.imgdata.idata.dng_version == 0)
-        return why;
+        return Error{ code == LIBRAW_FILE_UNSUPPORTED || code == LIBRAW_DATA_ERROR || code == LIBRAW_IO_ERROR
+                          ? "is not a RAW file that LibRaw " + std::string(LibRaw::version()) +
+                                " knows, or damaged or truncated"
+                          : std::string("LibRaw can't open it: ") + LibRaw::strerror(code) };
+    if (Status status = check_sensor(raw); !status && raw.imgdata.idata.dng_version == 0)
+        return status;
     stream.end_is_error();
     const int code = raw.unpack();
     if (code == LIBRAW_IO_ERROR || (code != LIBRAW_SUCCESS && stream.eof()))
-        return "truncated: image data end before the image is complete (file of " + std::to_string(file.size) +
-               " bytes)";
+        return Error{ "truncated: image data end before the image is complete (file of " + std::to_string(file.size) +
+                      " bytes)" };
     if (code != LIBRAW_SUCCESS)
-        return std::string("LibRaw can't decode it: ") + LibRaw::strerror(code);
+        return Error{ std::string("LibRaw can't decode it: ") + LibRaw::strerror(code) };
     if (raw.error_count() > 0)
-        return "damaged image data (LibRaw met " + std::to_string(raw.error_count()) + " decoding errors)";
+        return Error{ "damaged image data (LibRaw met " + std::to_string(raw.error_count()) + " decoding errors)" };
     const std::size_t pixels = std::size_t(raw.imgdata.sizes.raw_width) * raw.imgdata.sizes.raw_height;
     if (stream.consumed() < pixels / kMostPixelsPerByte)
-        return "damaged image data (LibRaw read " + std::to_string(stream.consumed()) + " bytes for " +
-               std::to_string(pixels) + " pixels)";
+        return Error{ "damaged image data (LibRaw read " + std::to_string(stream.consumed()) + " bytes for " +
+                      std::to_string(pixels) + " pixels)" };
     return {};
 }
 
-/// Points `pixels` at the active area of the unpacked samples; an error text if it does not lie within them.
-std::string locate_samples(const LibRaw& raw, int left, int top, RawPixels& pixels)
+/// Points `pixels` at the active area of the unpacked samples, which must lie within them.
+Status locate_samples(const LibRaw& raw, int left, int top, RawPixels& pixels)
 {
     const libraw_rawdata_t& data = raw.imgdata.rawdata;
     const libraw_image_sizes_t& sizes = raw.imgdata.sizes;
@@ -117,44 +119,80 @@ std::string locate_samples(const LibRaw& raw, int left, int top, RawPixels& pixe
         pixels.pixel_stride = 4;
         pixels.row_stride = std::ptrdiff_t(sizes.raw_pitch / 2);
     } else {
-        return "LibRaw decoded it to a form that is not supported";
+        return Error{ "LibRaw decoded it to a form that is not supported" };
     }
     if (left < 0 || top < 0 || pixels.width < 2 || pixels.height < 2 || left + pixels.width > sizes.raw_width ||
         top + pixels.height > sizes.raw_height ||
         pixels.row_stride < std::ptrdiff_t(sizes.raw_width) * pixels.pixel_stride)
-        return "active area of " + std::to_string(pixels.width) + " x " + std::to_string(pixels.height) +
-               " pixels does not lie within the image of " + std::to_string(sizes.raw_width) + " x " +
-               std::to_string(sizes.raw_height);
+        return Error{ "active area of " + std::to_string(pixels.width) + " x " + std::to_string(pixels.height) +
+                      " pixels does not lie within the image of " + std::to_string(sizes.raw_width) + " x " +
+                      std::to_string(sizes.raw_height) };
     pixels.shorts += top * pixels.row_stride + std::ptrdiff_t(left) * pixels.pixel_stride;
     return {};
 }
 
-std::string describe_pixels(LibRaw& raw, RawImage& image)
+/// EXIF orientation of dcraw's flip: 1 mirrors left-right, 2 top-bottom, 4 swaps the axes first.
+int orientation_of_flip(int flip)
+{
+    static const int kOrientations[] = { 1, 2, 4, 3, 5, 8, 6, 7 };
+    return flip >= 0 && flip < 8 ? kOrientations[flip] : 1;
+}
+
+float known(float value)
+{
+    return std::isfinite(value) && value > 0 ? value : 0;
+}
+
+/// Fills the facts of camera and exposure from what LibRaw read; what was assumed goes to `notes`.
+void describe_camera(const libraw_data_t& data, CameraFacts& facts, std::vector<std::string>& notes)
+{
+    facts.make = data.idata.make;
+    facts.model = data.idata.model;
+    facts.orientation = orientation_of_flip(data.sizes.flip);
+
+    const auto& matrix = data.color.cam_xyz; // LibRaw's table of Adobe's D65 matrices
+    if (matrix[0][0] != 0) {
+        CameraFacts::ColorMatrix entry;
+        for (std::size_t i = 0; i < 9; ++i)
+            entry.xyz_to_camera[i] = matrix[i / 3][i % 3];
+        entry.illuminant = 21; // D65
+        facts.color_matrices.push_back(entry);
+        notes.push_back("colour matrix from LibRaw's table for this camera (D65), not from the file");
+    }
+    const auto& multipliers = data.color.cam_mul;
+    if (known(multipliers[0]) > 0 && known(multipliers[1]) > 0 && known(multipliers[2]) > 0)
+        facts.as_shot_neutral = { multipliers[1] / multipliers[0], 1, multipliers[1] / multipliers[2] };
+    facts.iso = known(data.other.iso_speed);
+    facts.exposure_time_s = known(data.other.shutter);
+    facts.f_number = known(data.other.aperture);
+}
+
+Status describe_pixels(LibRaw& raw, RawImage& image)
 {
     RawPixels& pixels = image.pixels;
     pixels.width = raw.imgdata.sizes.width;
     pixels.height = raw.imgdata.sizes.height;
     pixels.cfa = cfa_pattern(raw);
     if (pixels.cfa.rows == 0)
-        return "filters in a pattern that is not supported";
-    if (const std::string why = check_filters(pixels); !why.empty())
-        return why;
+        return Error{ "filters in a pattern that is not supported" };
+    if (Status status = check_filters(pixels); !status)
+        return status;
     pixels.black = black_levels(raw, pixels.cfa);
     pixels.white.fill(float(raw.imgdata.color.maximum));
-    if (const std::string why = check_levels(pixels); !why.empty())
-        return why;
+    if (Status status = check_levels(pixels); !status)
+        return status;
     describe_levels(pixels, image.facts);
     describe_camera(raw.imgdata, image.facts, image.notes);
     return locate_samples(raw, raw.imgdata.sizes.left_margin, raw.imgdata.sizes.top_margin, pixels);
 }
 
-std::string adopt_dng(const LibRaw& raw, const DngDescription& dng, RawImage& image)
+Status adopt_dng(const LibRaw& raw, const DngDescription& dng, RawImage& image)
 {
     const libraw_image_sizes_t& sizes = raw.imgdata.sizes;
     if (sizes.raw_width != dng.stored_width || sizes.raw_height != dng.stored_height)
-        return "LibRaw decoded " + std::to_string(sizes.raw_width) + " x " + std::to_string(sizes.raw_height) +
-               " pixels where the DNG says " + std::to_string(dng.stored_width) + " x " +
-               std::to_string(dng.stored_height);
+        return Error{ "LibRaw decoded " + std::to_string(sizes.raw_width) + " x " + std::to_string(sizes.raw_height) +
+                      " pixels where the DNG says " + std::to_string(dng.stored_width) + " x " +
+                      std::to_string(dng.stored_height) };
     image.pixels = dng.layout;
     image.facts = dng.facts;
     image.notes = dng.notes;
@@ -171,12 +209,11 @@ Expected<RawImage> decode_with_libraw(const FileBytes& file, const DngDescriptio
         LibRaw raw{ LIBRAW_OPIONS_NO_MEMERR_CALLBACK | LIBRAW_OPIONS_NO_DATAERR_CALLBACK };
     };
     const auto decoder = std::make_shared<Decoder>(file);
-    if (const std::string why = unpack(decoder->raw, decoder->stream, file); !why.empty())
-        return Error{ why };
+    if (Status status = unpack(decoder->raw, decoder->stream, file); !status)
+        return status.error();
     RawImage image;
-    const std::string why = dng ? adopt_dng(decoder->raw, *dng, image) : describe_pixels(decoder->raw, image);
-    if (!why.empty())
-        return Error{ why };
+    if (Status status = dng ? adopt_dng(decoder->raw, *dng, image) : describe_pixels(decoder->raw, image); !status)
+        return status.error();
     image.pixels.owner = decoder;
     return image;
 }

@@ -6,8 +6,6 @@
 #include <cstdio>
 #include <type_traits>
 
-#include "reference/scale_shorts.h"
-
 namespace srisp {
 
 namespace {
@@ -26,35 +24,35 @@ float largest(const std::vector<float>& values)
 
 } // namespace
 
-std::string check_filters(const RawPixels& pixels)
+Status check_filters(const RawPixels& pixels)
 {
     const CfaPattern& cfa = pixels.cfa;
     if (pixels.channels == 3)
         return {};
     if (cfa.letters.find_first_not_of("RGB") != std::string::npos)
-        return "filters of colours other than R, G, B (" + cfa.letters + "): not supported";
+        return Error{ "filters of colours other than R, G, B (" + cfa.letters + "): not supported" };
     for (const char letter : { 'R', 'G', 'B' })
         if (cfa.letters.find(letter) == std::string::npos)
-            return "filters without one for each of R, G, B (" + cfa.letters + "): not supported";
+            return Error{ "filters without one for each of R, G, B (" + cfa.letters + "): not supported" };
     // Every cell of the thumbnail must hold sites of all colours; smaller Bayer sensors are demosaiced instead.
     const int smallest = cfa.rows == 2 ? 2 : kThumbnailSize * cfa.rows / 2;
     if (std::min(pixels.width, pixels.height) < smallest)
-        return "sensor of " + std::to_string(pixels.width) + " x " + std::to_string(pixels.height) +
-               " pixels: at least " + std::to_string(smallest) + " a side are needed for its filters";
+        return Error{ "sensor of " + std::to_string(pixels.width) + " x " + std::to_string(pixels.height) +
+                      " pixels: at least " + std::to_string(smallest) + " a side are needed for its filters" };
     return {};
 }
 
-std::string check_levels(const RawPixels& pixels)
+Status check_levels(const RawPixels& pixels)
 {
     const BlackLevels& black = pixels.black;
     for (const auto* values : { &black.pattern, &black.by_column, &black.by_row })
         if (std::any_of(values->begin(), values->end(), [](float v) { return !std::isfinite(v); }))
-            return "a black level is not a finite number";
+            return Error{ "a black level is not a finite number" };
     const double highest = double(largest(black.pattern)) + largest(black.by_column) + largest(black.by_row);
     for (int c = 0; c < pixels.channels; ++c)
         if (!(highest < pixels.white[std::size_t(c)]))
-            return "black level " + text_of(highest) + " is not below white level " +
-                   text_of(pixels.white[std::size_t(c)]);
+            return Error{ "black level " + text_of(highest) + " is not below white level " +
+                          text_of(pixels.white[std::size_t(c)]) };
     return {};
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <srisp/camera.h>
+#include <srisp/expected.h>
 #include <srisp/image.h>
 
 namespace srisp {
@@ -55,6 +56,11 @@ struct RawImage {
     std::vector<std::string> notes;
 };
 
+/// target[i] = clamp01((source[i] − black[i]) · factor[i]), `count` values: what most of the time goes into when a
+/// mosaic of many megapixels is reduced. Vectorised, dispatched at run time; the same bits on every instruction set.
+void scale_shorts(const std::uint16_t* source, const float* black, const float* factor, std::size_t count,
+                  float* target);
+
 /// Turns stored rows into (value − black) / (white − black), clipped to [0,1].
 class RowScaler {
 public:
@@ -71,13 +77,12 @@ private:
     std::vector<float> m_black, m_factor; ///< factor = 1 / (white − black); [row of the pattern][column][channel]
 };
 
-/// Why these filters can't be used (a colour that is not R, G or B, or none of one; X-Trans too small for its pattern),
-/// or
-/// "" if they can. Images of three channels pass.
-std::string check_filters(const RawPixels& pixels);
+/// Whether these filters can be used. Errors: a colour that is not R, G or B, or none of one; X-Trans too small for its
+/// pattern. Images of three channels pass.
+Status check_filters(const RawPixels& pixels);
 
-/// Why these levels can't be used ("black level 2056 is not below white level 1023"), or "" if they can.
-std::string check_levels(const RawPixels& pixels);
+/// Whether these levels can be used. Errors such as "black level 2056 is not below white level 1023".
+Status check_levels(const RawPixels& pixels);
 
 /// Fills the facts that follow from the pixels: size, CFA pattern and levels.
 void describe_levels(const RawPixels& pixels, CameraFacts& facts);

@@ -10,10 +10,8 @@
 #include "base/file_bytes.h"
 #include "base/hashes.h"
 #include "reference/camera_files.h"
-#include "reference/dng_levels.h"
-#include "reference/float_dng.h"
-#include "reference/libraw_decoder.h"
-#include "reference/linear_image.h"
+#include "reference/decoders.h"
+#include "reference/dng_description.h"
 #include "reference/mosaic_thumbnail.h"
 
 namespace srisp {
@@ -24,7 +22,7 @@ namespace {
 constexpr float kDarkest = 0.005f;
 
 /// By the 98th percentile of all values, the three channels together.
-std::string check_brightness(const Thumbnail& thumbnail)
+Status check_brightness(const Thumbnail& thumbnail)
 {
     const std::vector<float>& all = thumbnail.rgb;
     const auto place = std::ptrdiff_t(double(all.size() - 1) * 0.98);
@@ -35,87 +33,87 @@ std::string check_brightness(const Thumbnail& thumbnail)
     char text[128];
     std::snprintf(text, sizeof text, "is a black frame: 98 %% of its values are at or below %.5f, the limit is %.3f",
                   double(values[std::size_t(place)]), double(kDarkest));
-    return text;
+    return Error{ text };
 }
 
-/// Fills all but name and path from a RAW file; why it can't, or "".
-std::string load_raw(const std::string& path, Reference& reference)
+/// From a RAW file; all but name and path.
+Expected<Reference> load_raw(const std::string& path)
 {
     const auto file = read_whole_file(path);
     if (!file)
-        return file.error().message;
+        return file.error();
     const auto dng = describe_dng(*file);
     if (!dng)
-        return dng.error().message;
+        return dng.error();
     const DngDescription* description = *dng ? &**dng : nullptr;
     const auto image = description && description->is_float ? decode_float_dng(*file, *description)
                                                             : decode_with_libraw(*file, description);
     if (!image)
-        return image.error().message;
-    reference.hash = hash_of_bytes(file->data.get(), file->size);
-    reference.facts = image->facts;
-    reference.notes = image->notes;
-    reference.thumbnail = oriented(raw_thumbnail(image->pixels), reference.facts.orientation);
-    return {};
+        return image.error();
+    return Reference{ "",
+                      "",
+                      hash_of_bytes(file->data.get(), file->size),
+                      oriented(raw_thumbnail(image->pixels), image->facts.orientation),
+                      image->facts,
+                      image->notes };
 }
 
 /// The same from an EXR, or from a TIFF that srisp wrote. `format`: OpenImageIO's name.
-std::string load_linear(const std::string& path, const std::string& format, Reference& reference)
+Expected<Reference> load_linear(const std::string& path, const std::string& format)
 {
-    const auto image = load_linear_image(path, format);
+    const auto image = read_linear_reference(path, format);
     if (!image)
-        return image.error().message;
+        return image.error();
     const auto hash = hash_of_file(path);
     if (!hash)
-        return hash.error().message;
-    reference.hash = *hash;
-    reference.thumbnail = image->thumbnail;
-    reference.facts = image->facts;
-    reference.notes = image->notes;
-    return {};
+        return hash.error();
+    return Reference{ "", "", *hash, image->thumbnail, image->facts, image->notes };
 }
 
-std::string load_by_type(const FileType& type, const std::string& path, Reference& reference)
+Expected<Reference> load_by_type(const FileType& type, const std::string& path)
 {
     switch (type.kind) {
     case FileKind::display_encoded:
-        return "is a " + type.name +
-               " file, which is display-encoded and no reference: give a RAW file (DNG, NEF, CR2, ...)";
+        return Error{ "is a " + type.name +
+                      " file, which is display-encoded and no reference: give a RAW file (DNG, NEF, CR2, ...)" };
     case FileKind::foveon:
-        return "Foveon sensor (three layers, no mosaic): not supported";
+        return Error{ "Foveon sensor (three layers, no mosaic): not supported" };
     case FileKind::exr:
-        return load_linear(path, "openexr", reference);
-    case FileKind::tiff:
+        return load_linear(path, "openexr");
+    case FileKind::tiff: {
         // Most RAW formats are TIFF inside, some (Canon 1D) even by name; a TIFF of ours is no RAW whatever LibRaw
         // thinks.
-        if (!has_raw_extension(path)) {
-            const std::string why = load_linear(path, "tiff", reference);
-            return why.empty() || load_raw(path, reference).empty() ? "" : why;
-        }
-        break;
+        if (has_raw_extension(path))
+            break;
+        auto linear = load_linear(path, "tiff");
+        if (linear)
+            return linear;
+        auto raw = load_raw(path);
+        return raw ? raw : linear;
+    }
     case FileKind::raw:
         break;
     }
-    return load_raw(path, reference);
+    return load_raw(path);
 }
 
 } // namespace
 
 Expected<std::shared_ptr<const Reference>> load_reference(const std::string& path)
 {
-    const auto fail = [&](const std::string& why) { return Error{ "reference '" + path + "': " + why }; };
+    const auto fail = [&](const std::string& reason) { return Error{ "reference '" + path + "': " + reason }; };
     try {
         const auto head = read_head(path, kHeadBytes);
         if (!head)
             return fail(head.error().message);
-        const auto reference = std::make_shared<Reference>();
+        auto reference = load_by_type(file_type(*head), path);
+        if (!reference)
+            return fail(reference.error().message);
+        if (Status status = check_brightness(reference->thumbnail); !status)
+            return fail(status.error().message);
         reference->path = path;
         reference->name = std::filesystem::path(path).filename().string();
-        if (const std::string why = load_by_type(file_type(*head), path, *reference); !why.empty())
-            return fail(why);
-        if (const std::string why = check_brightness(reference->thumbnail); !why.empty())
-            return fail(why);
-        return std::shared_ptr<const Reference>(reference);
+        return std::make_shared<const Reference>(std::move(*reference));
     } catch (const std::exception& failed) {
         return fail(failed.what());
     }

@@ -6,6 +6,7 @@
 #include <OpenImageIO/strutil.h>
 #include <srisp/metadata.h>
 
+#include "record/record.h"
 #include "result/notes.h"
 
 namespace srisp {
@@ -80,7 +81,7 @@ void ResultImage::record(Level& level, const Choice& choice) const
     std::vector<std::string> notes = level.converter->notes();
     notes.insert(notes.end(), choice.notes.begin(), choice.notes.end());
     if (!notes.empty())
-        level.result.attribute("unprocess:notes", OIIO::Strutil::join(notes, "; "));
+        level.result.attribute(attribute::kNotes, OIIO::Strutil::join(notes, "; "));
     const std::string history = level.result.get_string_attribute("Exif:ImageHistory");
     // One command line may hold several of our commands.
     if (!m_recipe.command.empty() && !OIIO::Strutil::ends_with(history, m_recipe.command))

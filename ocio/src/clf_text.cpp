@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "clf_text.h"
+#include "operators.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ocio_group.h"
+#include "operators.h"
 
 namespace srisp {
 

@@ -2,8 +2,13 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <variant>
 #include <vector>
+
+#include <OpenColorIO/OpenColorIO.h>
+#include <srisp/expected.h>
+#include <srisp/ocio_transform.h>
 
 namespace srisp {
 
@@ -40,5 +45,18 @@ inline Affine diagonal(double r, double g, double b)
 {
     return { { r, 0, 0, 0, g, 0, 0, 0, b } };
 }
+
+/// The whole pipeline [method 1]; limits and errors as make_ocio_transform says.
+Expected<Operators> pipeline_operators(const Model& model, const Parameters& parameters, Direction direction,
+                                       int lut_size);
+
+/// The operators as OpenColorIO's transforms. Throws what OpenColorIO throws.
+OCIO_NAMESPACE::GroupTransformRcPtr ocio_group(const Operators& operators);
+
+/// A CLF file. (OpenColorIO writes them, too, but takes seconds for a cube of 65³.)
+std::string clf_text(const Operators& operators, const ClfLabel& label);
+
+/// A text inside of a CLF file. What XML cannot hold (control characters) becomes '?'.
+std::string clf_escaped(const std::string& text);
 
 } // namespace srisp

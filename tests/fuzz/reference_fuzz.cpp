@@ -10,9 +10,8 @@
 
 #include "base/file_bytes.h"
 #include "lib/reference/synthetic_dng.h"
-#include "reference/dng_levels.h"
-#include "reference/float_dng.h"
-#include "reference/libraw_decoder.h"
+#include "reference/decoders.h"
+#include "reference/dng_description.h"
 #include "reference/mosaic_thumbnail.h"
 
 using namespace srisp;

@@ -10,10 +10,8 @@
 #include "../common/interrupt.h"
 #include "../common/require.h"
 #include "base/output_file.h"
-#include "clf_text.h"
 #include "cube_file.h"
-#include "ocio_group.h"
-#include "pipeline_operators.h"
+#include "operators.h"
 
 namespace srisp::tool {
 

@@ -7,7 +7,7 @@
 #include <OpenImageIO/imagebuf.h>
 #include <unistd.h>
 
-#include "record/record_line.h"
+#include "record/record.h"
 #include "shared_files.h"
 
 using namespace srisp;
@@ -141,9 +141,9 @@ TEST_CASE("what described the photo's encoding is gone, its other words stay")
                               "oiio:SHA-1", "chromaticities", "adoptedNeutral" })
         CHECK_MESSAGE(!spec.find_attribute(gone), gone);
     CHECK(spec.get_string_attribute("oiio:ColorSpace") == "camera_rgb");
-    RecordLine record;
-    REQUIRE(find_record(spec.get_string_attribute("ImageDescription"), record));
-    CHECK(record.description == "my cat");
+    const auto record = find_record(spec.get_string_attribute("ImageDescription"));
+    REQUIRE(record);
+    CHECK(record->description == "my cat");
     CHECK(spec.get_float_attribute("ExposureTime") == 0.01f);
 }
 
@@ -158,9 +158,9 @@ TEST_CASE("a forward result is sRGB, synthetic, and not RAW-like")
     CHECK(spec.get_string_attribute("ImageDescription").find("synthetic") != std::string::npos);
     CHECK(!spec.find_attribute("unprocess:xyz_to_camera"));
     CHECK(!spec.find_attribute("unprocess:colorspace"));
-    RecordLine record;
-    REQUIRE(find_record(spec.get_string_attribute("ImageDescription"), record));
-    CHECK(record.description == "my cat");
+    const auto record = find_record(spec.get_string_attribute("ImageDescription"));
+    REQUIRE(record);
+    CHECK(record->description == "my cat");
 }
 
 TEST_CASE("the record is found in a caption to which programs have added")

@@ -11,8 +11,8 @@
 #include <cmath>
 
 #include "base/file_bytes.h"
-#include "reference/dng_levels.h"
-#include "reference/libraw_decoder.h"
+#include "reference/decoders.h"
+#include "reference/dng_description.h"
 #include "shared_files.h"
 
 using namespace srisp;

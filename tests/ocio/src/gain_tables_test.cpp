@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "inverse_gain_table.h"
+#include "gain_tables.h"
 
 #include <doctest/doctest.h>
 
 #include "image_compare.h"
 #include "kernels/pointwise.h"
 #include "ocio/ocio_pixels.h"
-#include "ocio_group.h"
+#include "operators.h"
 
 using namespace srisp;
 

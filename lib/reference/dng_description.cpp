@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/dng_levels.h"
+#include "reference/dng_description.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "reference/dng_camera.h"
 #include "reference/tiff_tags.h"
 
 namespace srisp {
@@ -49,7 +48,7 @@ constexpr int kPhotometricCfa = 32803, kPhotometricLinearRaw = 34892;
 constexpr int kLargestSide = 65535; // LibRaw's limit
 constexpr int kLargestPattern = 64; // of black levels; real ones have 1, 2 or 6
 
-/// Builds a description step by step; each step returns why it can't, or "".
+/// Builds a description step by step; the first step that can't ends it.
 class DngReader {
 public:
     DngReader(const TiffTags& tags, std::size_t file_size) : m_tags(tags), m_file_size(file_size) {}
@@ -58,8 +57,8 @@ public:
     {
         for (const auto step : { &DngReader::find_image, &DngReader::read_sizes, &DngReader::read_colors,
                                  &DngReader::read_black, &DngReader::read_white, &DngReader::check_storage })
-            if (const std::string why = (this->*step)(); !why.empty())
-                return Error{ why };
+            if (Status status = (this->*step)(); !status)
+                return status.error();
         note_what_is_ignored();
         describe_levels(m_dng.layout, m_dng.facts);
         describe_dng_camera(m_tags, image(), m_dng.facts);
@@ -73,12 +72,12 @@ private:
     /// Damaged numbers must not overflow; everything real is far below this bound.
     static int clamped(double value) { return std::isnan(value) ? -1 : int(std::clamp(value, -1e9, 1e9)); }
 
-    std::string find_image();
-    std::string read_sizes();
-    std::string read_colors();
-    std::string read_black();
-    std::string read_white();
-    std::string check_storage();
+    Status find_image();
+    Status read_sizes();
+    Status read_colors();
+    Status read_black();
+    Status read_white();
+    Status check_storage();
     void note_what_is_ignored();
 
     const TiffTags& m_tags;
@@ -87,7 +86,7 @@ private:
     DngDescription m_dng;
 };
 
-std::string DngReader::find_image()
+Status DngReader::find_image()
 {
     const auto& folders = m_tags.folders();
     for (std::size_t i = 0; i < folders.size(); ++i) {
@@ -99,10 +98,10 @@ std::string DngReader::find_image()
             return {};
         }
     }
-    return "DNG without a main RAW image (photometric interpretation CFA or LinearRaw)";
+    return Error{ "DNG without a main RAW image (photometric interpretation CFA or LinearRaw)" };
 }
 
-std::string DngReader::read_sizes()
+Status DngReader::read_sizes()
 {
     m_dng.stored_width = integer(kImageWidth, 0);
     m_dng.stored_height = integer(kImageLength, 0);
@@ -112,9 +111,9 @@ std::string DngReader::read_sizes()
     m_dng.compression = integer(kCompression, 1);
     const std::string size = std::to_string(m_dng.stored_width) + " x " + std::to_string(m_dng.stored_height);
     if (std::min(m_dng.stored_width, m_dng.stored_height) < 1)
-        return "DNG of " + size + " pixels: the image area is empty";
+        return Error{ "DNG of " + size + " pixels: the image area is empty" };
     if (std::max(m_dng.stored_width, m_dng.stored_height) > kLargestSide)
-        return "DNG of " + size + " pixels, the limit is " + std::to_string(kLargestSide) + " a side";
+        return Error{ "DNG of " + size + " pixels, the limit is " + std::to_string(kLargestSide) + " a side" };
 
     std::vector<double> area = m_tags.values(image(), kActiveArea); // top, left, bottom, right
     if (area.size() != 4)
@@ -126,34 +125,36 @@ std::string DngReader::read_sizes()
     m_dng.layout.height = bottom - m_dng.top;
     if (m_dng.top < 0 || m_dng.left < 0 || m_dng.layout.width < 1 || m_dng.layout.height < 1 ||
         bottom > m_dng.stored_height || right > m_dng.stored_width)
-        return "DNG of " + size + " pixels whose active area (top " + std::to_string(m_dng.top) + ", left " +
-               std::to_string(m_dng.left) + ", bottom " + std::to_string(bottom) + ", right " + std::to_string(right) +
-               ") is empty or lies outside";
+        return Error{ "DNG of " + size + " pixels whose active area (top " + std::to_string(m_dng.top) + ", left " +
+                      std::to_string(m_dng.left) + ", bottom " + std::to_string(bottom) + ", right " +
+                      std::to_string(right) + ") is empty or lies outside" };
     return {};
 }
 
-std::string DngReader::read_colors()
+Status DngReader::read_colors()
 {
     if (integer(kPhotometric, -1) == kPhotometricLinearRaw) {
         m_dng.layout.channels = m_dng.samples;
         if (m_dng.samples == 1)
-            return "monochrome DNG (LinearRaw with one sample per pixel): a reference needs three colours";
-        return m_dng.samples == 3 ? ""
-                                  : "LinearRaw DNG with " + std::to_string(m_dng.samples) +
-                                        " samples per pixel: a reference needs three colours";
+            return Error{ "monochrome DNG (LinearRaw with one sample per pixel): a reference needs three colours" };
+        if (m_dng.samples != 3)
+            return Error{ "LinearRaw DNG with " + std::to_string(m_dng.samples) +
+                          " samples per pixel: a reference needs three colours" };
+        return {};
     }
     if (m_dng.samples != 1)
-        return "DNG mosaic with " + std::to_string(m_dng.samples) + " samples per pixel: only 1 is supported";
+        return Error{ "DNG mosaic with " + std::to_string(m_dng.samples) + " samples per pixel: only 1 is supported" };
     if (integer(kCfaLayout, 1) != 1)
-        return "DNG with a staggered mosaic (CFALayout " + std::to_string(integer(kCfaLayout, 1)) + "): not supported";
+        return Error{ "DNG with a staggered mosaic (CFALayout " + std::to_string(integer(kCfaLayout, 1)) +
+                      "): not supported" };
     const std::vector<double> dim = m_tags.values(image(), kCfaRepeatPatternDim),
                               pattern = m_tags.values(image(), kCfaPattern);
     CfaPattern& cfa = m_dng.layout.cfa;
     const bool bayer = pattern.size() == 4 && dim == std::vector<double>{ 2, 2 };
     const bool xtrans = pattern.size() == 36 && dim == std::vector<double>{ 6, 6 };
     if (!bayer && !xtrans)
-        return "DNG mosaic of " + std::to_string(pattern.size()) +
-               " filters: only patterns of 2 x 2 and 6 x 6 are supported";
+        return Error{ "DNG mosaic of " + std::to_string(pattern.size()) +
+                      " filters: only patterns of 2 x 2 and 6 x 6 are supported" };
     cfa.rows = cfa.columns = bayer ? 2 : 6;
     // CFAPattern holds colours (0 R, 1 G, 2 B, 3 … others); CFAPlaneColor only tells in which order planes come.
     for (const double color : pattern)
@@ -161,7 +162,7 @@ std::string DngReader::read_colors()
     return check_filters(m_dng.layout);
 }
 
-std::string DngReader::read_black()
+Status DngReader::read_black()
 {
     BlackLevels& black = m_dng.layout.black;
     std::vector<double> dim = m_tags.values(image(), kBlackLevelRepeatDim);
@@ -170,30 +171,30 @@ std::string DngReader::read_black()
     black.rows = clamped(dim[0]);
     black.columns = clamped(dim[1]);
     if (std::min(black.rows, black.columns) < 1 || std::max(black.rows, black.columns) > kLargestPattern)
-        return "DNG black level pattern of " + std::to_string(black.rows) + " x " + std::to_string(black.columns) +
-               ": 1 to " + std::to_string(kLargestPattern) + " are possible";
+        return Error{ "DNG black level pattern of " + std::to_string(black.rows) + " x " +
+                      std::to_string(black.columns) + ": 1 to " + std::to_string(kLargestPattern) + " are possible" };
     std::vector<double> levels = m_tags.values(image(), kBlackLevel);
     const std::size_t expected =
         std::size_t(black.rows) * std::size_t(black.columns) * std::size_t(m_dng.layout.channels);
     if (levels.size() == 1 || levels.empty()) // one level for all; none means 0
         levels.assign(expected, levels.empty() ? 0 : levels[0]);
     if (levels.size() != expected)
-        return "DNG with " + std::to_string(levels.size()) + " black levels where its pattern needs " +
-               std::to_string(expected);
+        return Error{ "DNG with " + std::to_string(levels.size()) + " black levels where its pattern needs " +
+                      std::to_string(expected) };
     black.pattern.assign(levels.begin(), levels.end());
 
     const std::vector<double> h = m_tags.values(image(), kBlackLevelDeltaH),
                               v = m_tags.values(image(), kBlackLevelDeltaV);
     if ((!h.empty() && h.size() != std::size_t(m_dng.layout.width)) ||
         (!v.empty() && v.size() != std::size_t(m_dng.layout.height)))
-        return "DNG whose BlackLevelDeltaH (" + std::to_string(h.size()) + ") or BlackLevelDeltaV (" +
-               std::to_string(v.size()) + ") does not fit its active area";
+        return Error{ "DNG whose BlackLevelDeltaH (" + std::to_string(h.size()) + ") or BlackLevelDeltaV (" +
+                      std::to_string(v.size()) + ") does not fit its active area" };
     black.by_column.assign(h.begin(), h.end());
     black.by_row.assign(v.begin(), v.end());
     return {};
 }
 
-std::string DngReader::read_white()
+Status DngReader::read_white()
 {
     std::vector<double> levels = m_tags.values(image(), kWhiteLevel);
     if (levels.empty())
@@ -205,35 +206,38 @@ std::string DngReader::read_white()
 
 /// Whether all image data lie in the file, in a form that the decoders really handle: LibRaw reads uncompressed data in
 /// one run and the first strip only of a JPEG, whatever the tags say.
-std::string DngReader::check_storage()
+Status DngReader::check_storage()
 {
     static const std::map<int, std::string> kRefused = { { 34892, "lossy JPEG (8 bit, not sensor values)" },
                                                          { 9, "VC-5" },
                                                          { 52546, "JPEG XL" } };
     if (const auto refused = kRefused.find(m_dng.compression); refused != kRefused.end())
-        return "DNG compressed by " + refused->second + ": not supported";
+        return Error{ "DNG compressed by " + refused->second + ": not supported" };
     if (integer(kPlanarConfiguration, 1) != 1)
-        return "DNG with separate colour planes: not supported";
+        return Error{ "DNG with separate colour planes: not supported" };
     const bool tiled = image().find(kTileOffsets) != nullptr;
     const std::vector<double> offsets = m_tags.values(image(), tiled ? kTileOffsets : kStripOffsets);
     const std::vector<double> counts = m_tags.values(image(), tiled ? kTileByteCounts : kStripByteCounts);
     if (offsets.empty() || offsets.size() != counts.size())
-        return "DNG without image data";
+        return Error{ "DNG without image data" };
     for (std::size_t i = 0; i < offsets.size(); ++i)
         if (offsets[i] + counts[i] > double(m_file_size))
-            return "truncated: image data end at byte " + std::to_string(std::uint64_t(offsets[i] + counts[i])) +
-                   ", the file has " + std::to_string(m_file_size);
+            return Error{ "truncated: image data end at byte " + std::to_string(std::uint64_t(offsets[i] + counts[i])) +
+                          ", the file has " + std::to_string(m_file_size) };
     if (m_dng.is_float)
         return {}; // libtiff decodes these
     if (m_dng.compression != 1 && m_dng.compression != 7)
-        return "DNG of integers with compression " + std::to_string(m_dng.compression) + ": LibRaw does not decode it";
+        return Error{ "DNG of integers with compression " + std::to_string(m_dng.compression) +
+                      ": LibRaw does not decode it" };
+    if (m_dng.compression == 7 && !tiled && offsets.size() != 1)
+        return Error{ "DNG with several JPEG strips: LibRaw does not decode it" };
     if (m_dng.compression == 7)
-        return tiled || offsets.size() == 1 ? "" : "DNG with several JPEG strips: LibRaw does not decode it";
+        return {};
     if (tiled && integer(kTileWidth, 0) != m_dng.stored_width)
-        return "uncompressed DNG in tiles: LibRaw does not decode it";
+        return Error{ "uncompressed DNG in tiles: LibRaw does not decode it" };
     for (std::size_t i = 1; i < offsets.size(); ++i)
         if (offsets[i] != offsets[i - 1] + counts[i - 1])
-            return "uncompressed DNG whose strips do not follow each other: LibRaw does not decode it";
+            return Error{ "uncompressed DNG whose strips do not follow each other: LibRaw does not decode it" };
     return {};
 }
 

@@ -13,6 +13,9 @@
 
 namespace srisp {
 
+class TiffTags;
+struct TiffFolder;
+
 /// What a DNG's own tags say of its main image: geometry, levels, colours, camera. LibRaw 0.20 rounds black levels to
 /// integers, averages BlackLevelDeltaH/V and crops odd active areas, so we follow the tags and leave it the
 /// decompression.
@@ -32,5 +35,10 @@ struct DngDescription {
 /// sizes of 0 or beyond 65535, an active area outside the image, filters that are not R, G, B, monochrome, levels that
 /// can't be, image data beyond the end of the file (truncated), layouts and compressions that nothing here decodes.
 Expected<std::optional<DngDescription>> describe_dng(const FileBytes& file);
+
+/// Fills the facts of camera and exposure from a DNG's tags: make, model, orientation, colour matrices (with analog
+/// balance and camera calibration), as-shot neutral, noise profile, ISO, exposure time, f-number. `image`: the folder
+/// of the main image, which may hold some of them.
+void describe_dng_camera(const TiffTags& tags, const TiffFolder& image, CameraFacts& facts);
 
 } // namespace srisp

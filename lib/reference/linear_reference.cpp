@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/linear_image.h"
+#include "reference/decoders.h"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +10,8 @@
 #include <srisp/metadata.h>
 #include <srisp/thumbnail.h>
 
+#include "record/record.h"
+
 namespace srisp {
 
 namespace {
@@ -17,32 +19,33 @@ namespace {
 constexpr int kLargestSide = 1 << 17;
 constexpr std::uint64_t kMostBandBytes = std::uint64_t(1) << 30;
 
-/// Why this image is no reference, or "".
-std::string refusal(const OIIO::ImageSpec& spec, bool tiff)
+/// Whether this image can be a reference.
+Status check_kind(const OIIO::ImageSpec& spec, bool tiff)
 {
     const std::string encoding = spec.get_string_attribute("oiio:ColorSpace");
-    const bool processed = !spec.get_string_attribute("unprocess:synthetic").empty();
+    const bool processed = !spec.get_string_attribute(attribute::kSynthetic).empty();
     if (is_unprocessed(spec)) {
         if (tiff && spec.format != OIIO::TypeUInt16 && !spec.format.is_floating_point())
-            return std::string("TIFF of ") + spec.format.c_str() + " values: 16 bits or float are needed";
+            return Error{ std::string("TIFF of ") + spec.format.c_str() + " values: 16 bits or float are needed" };
     } else if (processed) {
-        return "is what srisp made of a RAW-like image, display-encoded and no reference: give a RAW file";
+        return Error{ "is what srisp made of a RAW-like image, display-encoded and no reference: give a RAW file" };
     } else if (tiff) {
-        return "TIFF without srisp's metadata may be display-encoded and is no reference: give a RAW file, or an EXR "
-               "or "
-               "TIFF that srisp wrote";
+        return Error{
+            "TIFF without srisp's metadata may be display-encoded and is no reference: give a RAW file, or an EXR "
+            "or TIFF that srisp wrote"
+        };
     } else if (OIIO::Strutil::istarts_with(encoding, "sRGB") || OIIO::Strutil::istarts_with(encoding, "Rec709") ||
                OIIO::Strutil::istarts_with(encoding, "Gamma")) {
-        return "is display-encoded (colour space '" + encoding + "') and no reference: give a RAW file";
+        return Error{ "is display-encoded (colour space '" + encoding + "') and no reference: give a RAW file" };
     }
     if (spec.deep)
-        return "deep image: not supported";
+        return Error{ "deep image: not supported" };
     if (!tiff && !spec.format.is_floating_point())
-        return std::string("EXR of ") + spec.format.c_str() + " values: half or float are needed";
+        return Error{ std::string("EXR of ") + spec.format.c_str() + " values: half or float are needed" };
     if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || std::max(spec.width, spec.height) > kLargestSide)
-        return "image of " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " x " +
-               std::to_string(spec.depth) + " pixels: from 1 to " + std::to_string(kLargestSide) +
-               " a side are possible";
+        return Error{ "image of " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " x " +
+                      std::to_string(spec.depth) + " pixels: from 1 to " + std::to_string(kLargestSide) +
+                      " a side are possible" };
     return {};
 }
 
@@ -70,18 +73,18 @@ public:
     {
     }
 
-    std::string read_all()
+    Status read_all()
     {
         const int band = m_spec.tile_height > 0 ? m_spec.tile_height : 32;
         const std::uint64_t values = std::uint64_t(m_spec.width) * std::uint64_t(band) * std::uint64_t(m_count);
         if (values * sizeof(float) > kMostBandBytes)
-            return "tiles of " + std::to_string(m_spec.tile_width) + " x " + std::to_string(band) +
-                   " pixels are too large";
+            return Error{ "tiles of " + std::to_string(m_spec.tile_width) + " x " + std::to_string(band) +
+                          " pixels are too large" };
         m_stored.resize(std::size_t(values));
         m_rgb.resize(std::size_t(m_spec.width) * 3);
         for (int y = 0; y < m_spec.height; y += band)
-            if (const std::string why = read_band(y, std::min(y + band, m_spec.height)); !why.empty())
-                return why;
+            if (Status status = read_band(y, std::min(y + band, m_spec.height)); !status)
+                return status;
         return {};
     }
 
@@ -89,7 +92,7 @@ public:
     std::uint64_t clipped() const { return m_clipped; }
 
 private:
-    std::string read_band(int begin, int end)
+    Status read_band(int begin, int end)
     {
         const int x = m_spec.x, y = m_spec.y;
         const bool read = m_spec.tile_height > 0
@@ -98,21 +101,20 @@ private:
                               : m_input.read_scanlines(0, 0, y + begin, y + end, 0, m_first, m_first + m_count,
                                                        OIIO::TypeFloat, m_stored.data());
         if (!read)
-            return "damaged or truncated at row " + std::to_string(begin) + ": " + m_input.geterror();
+            return Error{ "damaged or truncated at row " + std::to_string(begin) + ": " + m_input.geterror() };
         for (int row = begin; row < end; ++row)
-            if (const std::string why = add_row(row, m_stored.data() + std::size_t(row - begin) * row_values());
-                !why.empty())
-                return why;
+            if (Status status = add_row(row, m_stored.data() + std::size_t(row - begin) * row_values()); !status)
+                return status;
         return {};
     }
 
-    std::string add_row(int row, const float* stored)
+    Status add_row(int row, const float* stored)
     {
         for (int x = 0; x < m_spec.width; ++x)
             for (std::size_t c = 0; c < 3; ++c) {
                 const float value = stored[x * m_count + m_channels[c] - m_first];
                 if (!std::isfinite(value))
-                    return "NaN or infinity at pixel (" + std::to_string(x) + ", " + std::to_string(row) + ")";
+                    return Error{ "NaN or infinity at pixel (" + std::to_string(x) + ", " + std::to_string(row) + ")" };
                 const float kept = std::clamp(value, 0.0f, 1.0f);
                 m_clipped += kept != value;
                 m_rgb[std::size_t(x) * 3 + c] = kept;
@@ -132,35 +134,21 @@ private:
     std::uint64_t m_clipped = 0;
 };
 
-/// What srisp's own images say of the camera that they imitate (metadata.cpp writes it); empty for others.
-void describe_camera_of(const OIIO::ImageSpec& spec, CameraFacts& facts)
+/// What an image says of itself and, where srisp made it, of the camera that it imitates.
+CameraFacts facts_of(const OIIO::ImageSpec& spec)
 {
-    facts.make = spec.get_string_attribute("unprocess:reference_make");
-    facts.model = spec.get_string_attribute("unprocess:reference_model");
-    facts.iso = spec.get_float_attribute("unprocess:reference_iso");
-    facts.exposure_time_s = spec.get_float_attribute("unprocess:reference_exposure_time");
-    facts.f_number = spec.get_float_attribute("unprocess:reference_f_number");
-    spec.getattribute("unprocess:neutral", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 3), facts.as_shot_neutral.data());
-    CameraFacts::ColorMatrix matrix;
-    if (spec.getattribute("unprocess:xyz_to_camera", OIIO::TypeMatrix33, matrix.xyz_to_camera.data())) {
-        matrix.illuminant = spec.get_int_attribute("unprocess:xyz_to_camera_illuminant");
-        facts.color_matrices.push_back(matrix);
-    }
-}
-
-void describe_image(const OIIO::ImageSpec& spec, CameraFacts& facts)
-{
+    CameraFacts facts = recorded_camera(spec);
     facts.width = spec.width;
     facts.height = spec.height;
     const int orientation = spec.get_int_attribute("Orientation", 1);
     facts.orientation = orientation >= 1 && orientation <= 8 ? orientation : 1;
     facts.white_level = 1;
-    describe_camera_of(spec, facts);
+    return facts;
 }
 
 } // namespace
 
-Expected<LinearImage> load_linear_image(const std::string& path, const std::string& format)
+Expected<LinearReference> read_linear_reference(const std::string& path, const std::string& format)
 {
     // By the format's name: OpenImageIO would offer a damaged file to every plugin under a lock, ours among them.
     const auto input = OIIO::ImageInput::create(format);
@@ -169,17 +157,16 @@ Expected<LinearImage> load_linear_image(const std::string& path, const std::stri
     OIIO::ImageSpec spec;
     if (!input->open(path, spec))
         return Error{ "can't be opened as " + format + ": " + input->geterror() };
-    if (const std::string why = refusal(spec, format == "tiff"); !why.empty())
-        return Error{ why };
+    if (Status status = check_kind(spec, format == "tiff"); !status)
+        return status.error();
     const std::vector<int> channels = rgb_channels(spec);
     if (channels.empty())
         return Error{ "image without channels R, G, B (it has " + OIIO::Strutil::join(spec.channelnames, ", ") + ")" };
 
     RowReader reader(*input, channels);
-    if (const std::string why = reader.read_all(); !why.empty())
-        return Error{ why };
-    LinearImage image;
-    describe_image(spec, image.facts);
+    if (Status status = reader.read_all(); !status)
+        return status.error();
+    LinearReference image{ {}, facts_of(spec), {} };
     image.thumbnail = reader.builder().finish(image.facts.orientation);
     if (!is_unprocessed(spec))
         image.notes.push_back("taken as linear camera RGB in [0,1]: the EXR does not say what it is");

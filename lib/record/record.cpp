@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record/record.h"
+
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace srisp {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+const char kStart[] = "{\"srisp\":";
+
+/// An attribute of one value. `kept`: it holds for the result's own pixels, too; levels and filters do not.
+template<class Value> struct Fact {
+    const char* name;
+    Value CameraFacts::*value;
+    bool kept;
+};
+
+constexpr Fact<std::string> kTexts[] = { { "unprocess:reference_make", &CameraFacts::make, true },
+                                         { "unprocess:reference_model", &CameraFacts::model, true },
+                                         { "unprocess:reference_cfa_pattern", &CameraFacts::cfa_pattern, false } };
+constexpr Fact<float> kNumbers[] = { { "unprocess:reference_iso", &CameraFacts::iso, true },
+                                     { "unprocess:reference_exposure_time", &CameraFacts::exposure_time_s, true },
+                                     { "unprocess:reference_f_number", &CameraFacts::f_number, true },
+                                     { "unprocess:reference_white_level", &CameraFacts::white_level, false } };
+const char kBlackLevel[] = "unprocess:reference_black_level";
+const char kAsShotNeutral[] = "unprocess:reference_as_shot_neutral";
+const char kNoiseProfile[] = "unprocess:reference_noise_profile";
+const char kXyzToCamera[] = "unprocess:xyz_to_camera", kIlluminant[] = "unprocess:xyz_to_camera_illuminant";
+
+OIIO::TypeDesc floats(std::size_t count)
+{
+    return OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, static_cast<int>(count));
+}
+
+/// The JSON object at `start`, to its closing brace; empty where it does not close.
+std::string object_at(const std::string& text, std::size_t start)
+{
+    int depth = 0;
+    bool quoted = false;
+    for (std::size_t i = start; i < text.size(); ++i) {
+        const char c = text[i];
+        if (quoted && c == '\\')
+            ++i;
+        else if (c == '"')
+            quoted = !quoted;
+        else if (!quoted && c == '{')
+            ++depth;
+        else if (!quoted && c == '}' && --depth == 0)
+            return text.substr(start, i + 1 - start);
+    }
+    return "";
+}
+
+} // namespace
+
+const char* synthetic_mark(Direction direction)
+{
+    return direction == Direction::reverse ? "synthetic RAW-like image, computed from a photo; no sensor recorded it"
+                                           : "synthetic image, processed from a RAW-like one; no camera made it";
+}
+
+std::string format_record(const RecordLine& record)
+{
+    ordered_json line = { { "srisp", synthetic_mark(record.direction) },
+                          { "direction", record.direction == Direction::reverse ? "reverse" : "forward" } };
+    if (!record.parameters.empty())
+        line["parameters"] = ordered_json::parse(record.parameters, nullptr, false);
+    if (!record.description.empty())
+        line["description"] = record.description;
+    return line.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
+}
+
+std::optional<RecordLine> find_record(const std::string& text)
+{
+    const std::size_t start = text.find(kStart);
+    if (start == std::string::npos)
+        return {};
+    const ordered_json line = ordered_json::parse(object_at(text, start), nullptr, false);
+    if (!line.is_object())
+        return {};
+    const auto text_of = [&](const char* key) {
+        const auto found = line.find(key);
+        return found != line.end() && found->is_string() ? found->get<std::string>() : std::string();
+    };
+    return RecordLine{ text_of("direction") == "forward" ? Direction::forward : Direction::reverse,
+                       line.contains("parameters") ? line["parameters"].dump() : "", text_of("description") };
+}
+
+void write_camera(OIIO::ImageSpec& spec, const CameraFacts& facts)
+{
+    for (const auto& [name, value, kept] : kTexts)
+        if (!(facts.*value).empty())
+            spec.attribute(name, facts.*value);
+    for (const auto& [name, value, kept] : kNumbers)
+        if (facts.*value > 0)
+            spec.attribute(name, facts.*value);
+    if (facts.white_level > 0)
+        spec.attribute(kBlackLevel, floats(4), facts.black_level.data());
+    if (facts.as_shot_neutral[1] > 0)
+        spec.attribute(kAsShotNeutral, floats(3), facts.as_shot_neutral.data());
+    if (!facts.noise_profile.empty()) {
+        const std::vector<float> noise(facts.noise_profile.begin(), facts.noise_profile.end());
+        spec.attribute(kNoiseProfile, floats(noise.size()), noise.data());
+    }
+    if (const CameraFacts::ColorMatrix* matrix = facts.daylight_matrix()) {
+        spec.attribute(kXyzToCamera, OIIO::TypeMatrix33, matrix->xyz_to_camera.data());
+        if (matrix->illuminant)
+            spec.attribute(kIlluminant, matrix->illuminant);
+    }
+}
+
+CameraFacts recorded_camera(const OIIO::ImageSpec& spec)
+{
+    CameraFacts facts;
+    for (const auto& [name, value, kept] : kTexts)
+        if (kept)
+            facts.*value = spec.get_string_attribute(name);
+    for (const auto& [name, value, kept] : kNumbers)
+        if (kept)
+            facts.*value = spec.get_float_attribute(name);
+    spec.getattribute(attribute::kNeutral, floats(3), facts.as_shot_neutral.data());
+    CameraFacts::ColorMatrix matrix;
+    if (spec.getattribute(kXyzToCamera, OIIO::TypeMatrix33, matrix.xyz_to_camera.data())) {
+        matrix.illuminant = spec.get_int_attribute(kIlluminant);
+        facts.color_matrices.push_back(matrix);
+    }
+    return facts;
+}
+
+} // namespace srisp

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gain_tables.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace srisp {
+
+namespace {
+
+/// Points of sampled curves per 0.1 of what they look up. GPUs interpolate textures with 8 bits between two points.
+constexpr int kPointsPerTenth = 64;
+
+/// A monotonic curve of straight lines over [0,1], and its inverse. Corners lie on points of the sampled curve.
+struct Corners {
+    std::vector<double> from, to;
+
+    static double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at)
+    {
+        std::size_t i = 1;
+        while (i + 1 < x.size() && at > x[i])
+            ++i;
+        return y[i - 1] + (y[i] - y[i - 1]) * (at - x[i - 1]) / (x[i] - x[i - 1]);
+    }
+    double operator()(double at) const { return interpolate(from, to, at); }
+    double inverse(double at) const { return interpolate(to, from, at); }
+};
+
+// 33 points: 31 cells of 0.0032 between grey 0.9 and 1, where m bends; linear interpolation errs by h²/8 · 240 = 3e-4.
+constexpr int kGainPoints = 33, kGainCells = kGainPoints - 1;
+
+/// 0 … 0.9 is one cell, and so is what lies above 1 (`tenths` · 0.1 at the end): there m is constant.
+Corners grey_corners(int tenths)
+{
+    Corners corners{ { 0, 9.0 / tenths }, { 0, 1.0 / kGainCells } };
+    corners.from.push_back(10.0 / tenths);
+    corners.to.push_back(tenths > 10 ? double(kGainCells - 1) / kGainCells : 1);
+    if (tenths > 10) {
+        corners.from.push_back(1);
+        corners.to.push_back(1);
+    }
+    return corners;
+}
+
+/// Differences from −`reach` to `reach`; those from `low` (< 0) to `high` (> 0) occur where grey is 0.9 … 1.
+Corners difference_corners(double reach, double low, double high, int samples)
+{
+    const double step = 1.0 / (samples - 1);
+    const auto normalized = [&](double d) { return (d + reach) / (2 * reach); };
+    const double from = std::max(std::floor(normalized(low) / step), 1.0) * step;
+    const double to = std::min(std::ceil(normalized(high) / step), samples - 2.0) * step;
+    const int fine = kGainCells - 2,
+              below = std::clamp(int(std::lround(fine * (0.5 - from) / (to - from))), 1, fine - 1);
+    return { { 0, from, 0.5, to, 1 },
+             { 0, 1.0 / kGainCells, (1.0 + below) / kGainCells, (kGainCells - 1.0) / kGainCells, 1 } };
+}
+
+/// The differences from grey that the channel `c` can have where grey is within 0.9 … 1.
+std::array<double, 2> differences_near_white(const std::array<float, 3>& most, int c)
+{
+    const double others = double(most[(c + 1) % 3]) + most[(c + 2) % 3];
+    return { std::clamp(1.8 - others, -1.0, -0.05), std::clamp(double(most[c]) - 0.9, 0.05, 2.0) };
+}
+
+/// The formula with factors s + m (1 − s), s < 1, and s otherwise.
+std::array<double, 3> inverse_gain(double grey, const std::array<double, 3>& v, const std::array<float, 3>& scales)
+{
+    const double above = std::clamp((grey - 0.9) / 0.1, 0.0, 1.0), m = above * above;
+    std::array<double, 3> result;
+    for (int c = 0; c < 3; ++c)
+        result[c] = v[c] * (scales[c] + m * std::max(1.0 - scales[c], 0.0));
+    return result;
+}
+
+} // namespace
+
+void append_inverse_gain(Operators& operators, const std::array<float, 3>& scales, std::array<float, 3>& most)
+{
+    const std::array<float, 3> in = most;
+    for (int c = 0; c < 3; ++c)
+        most[c] *= std::max(scales[c], 1.0f);
+    if (std::all_of(scales.begin(), scales.end(), [](float s) { return s >= 1; })) {
+        operators.push_back(diagonal(scales[0], scales[1], scales[2]));
+        return;
+    }
+    const double sum = double(in[0]) + in[1] + in[2];
+    const int tenths = std::max(10, int(std::ceil(sum / 0.3 - 1e-6)));
+    const int samples = tenths * kPointsPerTenth + 1;
+    std::array<Corners, 3> corners{ grey_corners(tenths) };
+    std::array<double, 3> reach{};
+    for (const int channel : { 0, 2 }) { // R, B; they are the second and third axis
+        const int axis = channel == 0 ? 1 : 2;
+        reach[axis] = std::max((sum - in[channel]) / 3, 2.0 / 3 * in[channel]);
+        const auto [low, high] = differences_near_white(in, channel);
+        corners[axis] = difference_corners(reach[axis], low, high, samples);
+    }
+
+    const double grey = 1 / (0.3 * tenths), r = 1 / (6 * reach[1]), b = 1 / (6 * reach[2]);
+    operators.push_back(Affine{ { grey, grey, grey, 2 * r, -r, -r, -b, -b, 2 * b }, { 0, 0.5, 0.5 } });
+
+    Curves curves{ samples, {} };
+    for (int i = 0; i < samples; ++i)
+        for (const Corners& axis : corners)
+            curves.rgb.push_back(static_cast<float>(axis(double(i) / (samples - 1))));
+    operators.push_back(std::move(curves));
+
+    Cube cube{ kGainPoints, {} };
+    for (int i = 0; i < kGainPoints; ++i)
+        for (int j = 0; j < kGainPoints; ++j)
+            for (int k = 0; k < kGainPoints; ++k) {
+                const double at = corners[0].inverse(double(i) / kGainCells) * 0.1 * tenths;
+                const double dr = (2 * corners[1].inverse(double(j) / kGainCells) - 1) * reach[1];
+                const double db = (2 * corners[2].inverse(double(k) / kGainCells) - 1) * reach[2];
+                for (const double value : inverse_gain(at, { at + dr, at - dr - db, at + db }, scales))
+                    cube.rgb.push_back(static_cast<float>(value));
+            }
+    operators.push_back(std::move(cube));
+}
+
+namespace {
+
+// 65 points: one cell from 0 to 0.9, 24 to 1, 39 above.
+constexpr int kHighlightPoints = 65, kHighlightCells = kHighlightPoints - 1, kFine = 24;
+
+/// The formula without the limit 1 / gain: points beyond it continue it, so that the cell with the limit has no bend.
+std::array<double, 3> rebuilt(const std::array<double, 3>& u, double gain)
+{
+    double sum = 0, top = 1;
+    for (const double value : u) {
+        sum += std::min(value, 1.0);
+        top = std::max(top, value);
+    }
+    const double root = std::clamp((sum - 2.9) / 0.1, 0.0, 1.0) * (top - 1) / (1 / gain - 1), m = root * root;
+    std::array<double, 3> result;
+    for (int c = 0; c < 3; ++c)
+        result[c] = gain * (u[c] + m * (top - u[c]));
+    return result;
+}
+
+} // namespace
+
+void append_rebuilt_highlights(Operators& operators, double gain, double most)
+{
+    // 0.9 and 1 are to lie on points of the curves.
+    const int tenths = std::max(11, int(std::ceil(10 * std::min(1 / gain, most) - 1e-6)));
+    const Corners corners{ { 0, 9.0 / tenths, 10.0 / tenths, 1 },
+                           { 0, 1.0 / kHighlightCells, (1.0 + kFine) / kHighlightCells, 1 } };
+    operators.push_back(Clamp{ 0, static_cast<float>(1 / gain) });
+    operators.push_back(diagonal(10.0 / tenths, 10.0 / tenths, 10.0 / tenths));
+
+    Curves curves{ tenths * kPointsPerTenth + 1, {} };
+    for (int i = 0; i < curves.size; ++i)
+        curves.rgb.insert(curves.rgb.end(), 3, static_cast<float>(corners(double(i) / (curves.size - 1))));
+    operators.push_back(std::move(curves));
+
+    std::array<double, kHighlightPoints> values;
+    for (int i = 0; i < kHighlightPoints; ++i)
+        values[i] = 0.1 * tenths * corners.inverse(double(i) / kHighlightCells);
+    Cube cube{ kHighlightPoints, {} };
+    cube.rgb.reserve(std::size_t(3) * kHighlightPoints * kHighlightPoints * kHighlightPoints);
+    for (int r = 0; r < kHighlightPoints; ++r)
+        for (int g = 0; g < kHighlightPoints; ++g)
+            for (int b = 0; b < kHighlightPoints; ++b)
+                for (const double value : rebuilt({ values[r], values[g], values[b] }, gain))
+                    cube.rgb.push_back(static_cast<float>(value));
+    operators.push_back(std::move(cube));
+    operators.push_back(Clamp{ 0, 1 });
+}
+
+} // namespace srisp
