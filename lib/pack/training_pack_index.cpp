@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/json_object.h"
+#include "base/near_names.h"
 
 namespace srisp {
 
