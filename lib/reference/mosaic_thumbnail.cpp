@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/mosaic_thumbnail.h"
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -8,6 +6,7 @@
 #include <srisp/thumbnail.h>
 
 #include "base/parallel.h"
+#include "reference/raw_pixels.h"
 #include "thumbnail/area_average.h"
 
 namespace srisp {

@@ -87,4 +87,9 @@ Status check_levels(const RawPixels& pixels);
 /// Fills the facts that follow from the pixels: size, CFA pattern and levels.
 void describe_levels(const RawPixels& pixels, CameraFacts& facts);
 
+/// The thumbnail of a sensor image, as stored (not yet upright). A mosaic needs no demosaic: per colour the area
+/// average over that colour's own sites; sensors under 512 px (a cell may hold no site of a colour) are demosaiced
+/// bilinearly first. Same bits for any number of threads. [method: thumbnails]
+Thumbnail raw_thumbnail(const RawPixels& pixels);
+
 } // namespace srisp

@@ -12,7 +12,7 @@
 #include "reference/camera_files.h"
 #include "reference/decoders.h"
 #include "reference/dng_description.h"
-#include "reference/mosaic_thumbnail.h"
+#include "reference/raw_pixels.h"
 
 namespace srisp {
 

@@ -7,7 +7,6 @@
 #include <srisp/tone_map_values.h>
 
 #include "base/matrix3.h"
-#include "gain_tables.h"
 #include "model/model_data.h"
 #include "operators.h"
 

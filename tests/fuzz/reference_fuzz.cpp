@@ -12,7 +12,7 @@
 #include "lib/reference/synthetic_dng.h"
 #include "reference/decoders.h"
 #include "reference/dng_description.h"
-#include "reference/mosaic_thumbnail.h"
+#include "reference/raw_pixels.h"
 
 using namespace srisp;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/mosaic_thumbnail.h"
+#include "reference/raw_pixels.h"
 
 #include <algorithm>
 #include <array>

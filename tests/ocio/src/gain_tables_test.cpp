@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gain_tables.h"
+#include "operators.h"
 
 #include <doctest/doctest.h>
 
 #include "image_compare.h"
 #include "kernels/pointwise.h"
 #include "ocio/ocio_pixels.h"
-#include "operators.h"
 
 using namespace srisp;
 
