@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "reference/dng_description.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "reference/dng_description.h"
 #include "reference/tiff_tags.h"
 
 namespace srisp {

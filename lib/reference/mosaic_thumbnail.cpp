@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "reference/raw_pixels.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -6,7 +8,6 @@
 #include <srisp/thumbnail.h>
 
 #include "base/parallel.h"
-#include "reference/raw_pixels.h"
 #include "thumbnail/area_average.h"
 
 namespace srisp {

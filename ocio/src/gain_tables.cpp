@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "operators.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
-
-#include "operators.h"
 
 namespace srisp {
 
