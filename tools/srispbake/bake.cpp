@@ -10,8 +10,8 @@
 #include "../common/interrupt.h"
 #include "../common/require.h"
 #include "base/output_file.h"
-#include "ocio/src/clf_text.h"
 #include "cube_file.h"
+#include "ocio/src/clf_text.h"
 #include "ocio/src/ocio_group.h"
 #include "ocio/src/pipeline_operators.h"
 
