@@ -36,5 +36,6 @@ install(TARGETS output_guard DESTINATION ${CMAKE_INSTALL_LIBDIR}/srisp)
 srisp_image_tool(srisppack srisp_static srisp_pack)
 srisp_man_page(srisppack --help)
 
-srisp_image_tool(srispbake srisp_ocio_operators)
+srisp_image_tool(srispbake srisp_ocio_static)
+target_include_directories(srispbake_parts PRIVATE ${PROJECT_SOURCE_DIR}) # parts of ocio, by their path
 srisp_man_page(srispbake --help)

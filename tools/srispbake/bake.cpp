@@ -11,7 +11,7 @@
 #include "../common/require.h"
 #include "base/output_file.h"
 #include "cube_file.h"
-#include "operators.h"
+#include "ocio/src/operators.h"
 
 namespace srisp::tool {
 

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "../common/failure.h"
-#include "operators.h"
+#include "ocio/src/operators.h"
 
 namespace srisp::tool {
 
