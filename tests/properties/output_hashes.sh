@@ -18,10 +18,12 @@ PATH=$scratch/bin:$PATH
 export PATH SRISP_OIIOTOOL="$stock" LC_ALL=C.UTF-8
 plugins=$(dirname "$(find "$build/lib" -name srisp.imageio.so | head -n 1)")
 cd "$scratch/work"
-cp "$source/configs/sample/photo.jpg" photo.jpg
+# Writers record the time where an image has none.
+date="2020:01:01 00:00:00"
+oiiotool "$source/configs/sample/photo.jpg" --attrib DateTime "$date" --nosoftwareattrib -o photo.jpg
 cp "$source/configs/sample/reference.dng" ref.dng
 for frame in 0001 0002 0003; do cp photo.jpg "shot.$frame.jpg"; done
-oiiotool --create 64x48 4 --fill:color=0.5,0.25,0.1,0.5 64x24+0+0 -d uint16 --nosoftwareattrib -o alpha.png
+oiiotool --create 64x48 4 --fill:color=0.5,0.25,0.1,0.5 64x24+0+0 -d uint16 --attrib DateTime "$date" --nosoftwareattrib -o alpha.png
 oiiotool photo.jpg --ch R -d uint8 --nosoftwareattrib -o grey.tif
 oiiotool photo.jpg --resize 300x0 --colorconvert sRGB Linear -d half --nosoftwareattrib -o linear.exr 2>/dev/null ||
     oiiotool photo.jpg --resize 300x0 --powc 2.2 -d half --nosoftwareattrib -o linear.exr
