@@ -8,9 +8,9 @@
 #include <unistd.h>
 
 #include "../common/failure.h"
-#include "clf_text.h"
+#include "ocio/src/clf_text.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace fs = std::filesystem;
 
@@ -86,4 +86,4 @@ void refuse_bake_of_another(const std::string& path, const std::string& referenc
              "); remove it, or give -o NAME");
 }
 
-} // namespace srisp
+} // namespace srisp::tool

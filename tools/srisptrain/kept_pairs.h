@@ -4,11 +4,10 @@
 #include <chrono>
 #include <string>
 
-#include "../common/progress_meter.h"
 #include "anchor_pairs.h"
 #include "host.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 constexpr char kAnchorPairsFile[] = "anchor_pairs.safetensors";
 
@@ -37,4 +36,4 @@ private:
     int m_kept = 0;
 };
 
-} // namespace srisp
+} // namespace srisp::tool
