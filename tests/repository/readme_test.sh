@@ -45,7 +45,7 @@ run_block() (
 )
 
 check "README has at most 180 lines" test "$(wc -l <"$source/README.md")" -le 180
-for document in README.md docs/usage.md docs/artists.md docs/ocio.md docs/researchers.md docs/developers.md; do
+for document in README.md docs/artists.md docs/ocio.md docs/researchers.md docs/developers.md; do
     rm -f "$scratch"/block.*
     : >"$scratch/blocks"
     check "$document: every block says its language" blocks_of "$document"
