@@ -3,33 +3,16 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <regex>
 
 #include <nlohmann/json.hpp>
 #include <srisp/metadata.h>
 
 #include "base/text_file.h"
 #include "hand_over.h"
+#include "recipe/frame_pattern.h"
 #include "result/result_image.h"
 
 namespace srisp {
-
-std::string with_frame(const std::string& pattern, const std::string& frame)
-{
-    if (frame.empty())
-        return pattern;
-    std::smatch match;
-    if (!std::regex_search(pattern, match, std::regex("#+|%(0?)([0-9]{0,2})d")))
-        return pattern;
-    const bool hashes = match.str()[0] == '#';
-    const std::size_t width = hashes ? match.length() : match[2].length() ? std::stoul(match[2].str()) : 0;
-    const std::string sign = frame[0] == '-' ? "-" : "";
-    std::string digits = frame.substr(sign.size());
-    digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size() - 1));
-    if (sign.size() + digits.size() < width)
-        digits.insert(0, width - sign.size() - digits.size(), '0');
-    return match.prefix().str() + sign + digits + match.suffix().str();
-}
 
 Status print_parameters(const Recipe& job, const std::string& slot_id)
 {

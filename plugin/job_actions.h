@@ -18,7 +18,4 @@ Status print_parameters(const Recipe& job, const std::string& slot_id);
 /// the frame number.
 Status save_parameters(const Recipe& job, const OIIO::ImageSpec& spec, const std::string& frame);
 
-/// `pattern` with a run of '#' or one %d, %0Nd replaced by the frame number, padded with zeros.
-std::string with_frame(const std::string& pattern, const std::string& frame);
-
 } // namespace srisp

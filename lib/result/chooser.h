@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,7 +48,6 @@ private:
 
     Recipe m_recipe;
     std::shared_ptr<const Model> m_model; ///< null: the image's record says which (forward)
-    std::optional<Parameters> m_given;
     std::string m_reference; ///< path of the chosen file; may be empty
 };
 

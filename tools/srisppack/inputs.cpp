@@ -11,7 +11,7 @@
 #include "base/file_bytes.h"
 #include "base/seeded_hash.h"
 #include "camera_folder.h"
-#include "reference/camera_files.h"
+#include "recipe/reference_pattern.h"
 
 namespace srisp {
 

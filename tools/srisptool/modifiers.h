@@ -7,7 +7,8 @@
 
 namespace srisp {
 
-using Modifiers = std::vector<std::pair<std::string, std::string>>;
+using Modifier = std::pair<std::string, std::string>; ///< name and value
+using Modifiers = std::vector<Modifier>;
 
 /// The `name=value` pairs of `--command:a=b:c="d:e"`. As in oiiotool a value ends at the next colon, or is quoted by '
 /// or "; unlike oiiotool, what is malformed is an error (exit 2), not ignored.

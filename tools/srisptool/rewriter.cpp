@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "recipe/frame_pattern.h"
+
 #include "../common/failure.h"
-#include "frame_pattern.h"
 #include "modifiers.h"
 #include "output_depth.h"
 

@@ -11,18 +11,13 @@ namespace srisp {
 static const std::vector<SrispCommand>& srisp_commands()
 {
     static const std::vector<SrispCommand> commands = {
-        { "srisp-unprocess",
-          "REF",
-          { "model", "params", "input", "precision", "hold", "seed" },
-          Effect::replaces,
-          "reverse",
-          "apply" },
-        { "srisp-process", nullptr, { "params", "model", "precision" }, Effect::replaces, "forward", "apply" },
-        { "srisp-params", "REF", { "model", "input", "seed" }, Effect::reports, "reverse", "print" },
-        { "srisp-save-params", "FILE", {}, Effect::reports, "reverse", "save" },
-        { "srisp-help", nullptr, {}, Effect::helps, "", "" },
-        { "quiet", nullptr, {}, Effect::configures, "", "" },
-        { "no-progress", nullptr, {}, Effect::configures, "", "" },
+        { "srisp-unprocess", "REF", kUnprocess, Effect::replaces, "reverse", "apply" },
+        { "srisp-process", nullptr, kProcess, Effect::replaces, "forward", "apply" },
+        { "srisp-params", "REF", kParams, Effect::reports, "reverse", "print" },
+        { "srisp-save-params", "FILE", kNoDoor, Effect::reports, "reverse", "save" },
+        { "srisp-help", nullptr, kNoDoor, Effect::helps, "", "" },
+        { "quiet", nullptr, kNoDoor, Effect::configures, "", "" },
+        { "no-progress", nullptr, kNoDoor, Effect::configures, "", "" },
     };
     return commands;
 }

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <string>
-#include <vector>
+
+#include "recipe/option_table.h"
 
 namespace srisp {
 
@@ -16,9 +17,9 @@ enum class Effect {
 
 /// A command that srisptool adds to oiiotool's.
 struct SrispCommand {
-    const char* name;                   ///< without dashes
-    const char* argument;               ///< what its one argument is called in messages; null: it takes none
-    std::vector<const char*> modifiers; ///< names it allows
+    const char* name;     ///< without dashes
+    const char* argument; ///< what its one argument is called in messages; null: it takes none
+    Door door;            ///< whose options are its modifiers
     Effect effect;
     const char* direction; ///< of the job: "reverse", "forward"
     const char* action;    ///< of the job: "apply", "print", "save"
