@@ -38,10 +38,9 @@ Status take(std::string& target, const Option& option, const json& value, const 
         return Error{ "must be a text" };
     target = value.get<std::string>();
     // A model is a name unless it looks like a path [Model::load].
-    const bool is_path =
-        option.type == OptionType::path ||
-        (option.type == OptionType::model &&
-         (target.find('/') != std::string::npos || fs::path(target).extension() == ".safetensors"));
+    const bool is_path = option.type == OptionType::path ||
+                         (option.type == OptionType::model &&
+                          (target.find('/') != std::string::npos || fs::path(target).extension() == ".safetensors"));
     if (is_path)
         target = resolved(target, place);
     return {};

@@ -29,7 +29,8 @@ struct Recipe : Options {
 };
 
 /// Reads a recipe (`is_job` false) or job from its JSON text. `path` is where it lies: paths in it are relative to its
-/// folder. Errors: not JSON, unknown keys or values (the near ones listed), wrong types, parameters that cannot be read.
+/// folder. Errors: not JSON, unknown keys or values (the near ones listed), wrong types, parameters that cannot be
+/// read.
 Expected<Recipe> recipe_from_json(const std::string& text, const std::string& path, bool is_job);
 
 /// Sets one value from a text, as a query or a configuration hint says it. Paths are relative to the working folder.

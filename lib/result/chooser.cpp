@@ -111,7 +111,8 @@ Expected<Chooser> Chooser::create(const Recipe& recipe, const std::string& photo
 std::string Chooser::key(const PixelSource& source, int subimage) const
 {
     return source.key() + "\n" + std::to_string(subimage) + "\n" + std::to_string(static_cast<int>(m_recipe.input)) +
-           "\n" + m_model->hash() + "\n" + (m_recipe.parameters ? to_json(*m_recipe.parameters, -1) : "") + "\n" + file_state(m_reference);
+           "\n" + m_model->hash() + "\n" + (m_recipe.parameters ? to_json(*m_recipe.parameters, -1) : "") + "\n" +
+           file_state(m_reference);
 }
 
 Expected<ChoicePtr> Chooser::known(const PixelSource& source, int subimage, const OIIO::ImageSpec& stored) const
@@ -124,7 +125,8 @@ Expected<ChoicePtr> Chooser::known(const PixelSource& source, int subimage, cons
     }
     if (!m_recipe.parameters && !is_unprocessed(stored))
         return Error{ source.name() + ": is no RAW-like image of srisp's, so it records no parameters; give params=" };
-    auto parameters = m_recipe.parameters ? Expected<Parameters>(*m_recipe.parameters) : recorded_parameters(stored, source.name());
+    auto parameters =
+        m_recipe.parameters ? Expected<Parameters>(*m_recipe.parameters) : recorded_parameters(stored, source.name());
     if (!parameters)
         return parameters.error();
     auto model = m_model ? Expected<std::shared_ptr<const Model>>(m_model) : load_model_cached(parameters->model_name);

@@ -48,7 +48,7 @@ private:
 
     Recipe m_recipe;
     std::shared_ptr<const Model> m_model; ///< null: the image's record says which (forward)
-    std::string m_reference; ///< path of the chosen file; may be empty
+    std::string m_reference;              ///< path of the chosen file; may be empty
 };
 
 } // namespace srisp

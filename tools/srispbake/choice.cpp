@@ -11,7 +11,7 @@
 #include "../common/require.h"
 #include "base/file_bytes.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -83,4 +83,4 @@ Choice make_choice(const Options& options)
     return choice;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -10,8 +10,9 @@
 #include "recipe/reference_pattern.h"
 
 #include "../common/failure.h"
+#include "modifiers.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -66,18 +67,17 @@ nlohmann::json existing_references(const std::string& command, const std::string
     const Expected<std::vector<std::string>> typed = split_references(text);
     if (!typed || typed->empty())
         fail_usage(command + ": the list of references '" + text + "' is empty");
-    for (const std::string& item : *typed) {
-        const auto files = exists(item) ? Expected<std::vector<std::string>>({ item }) : expand_references({ item });
-        if (!files || !exists(files->front()))
-            fail(command + ": reference '" + item + "' does not exist");
-    }
     std::vector<std::string> paths;
-    for (const std::string& item : *typed)
+    for (const std::string& item : *typed) {
+        if (!exists(item))
+            if (const auto files = expand_references({ item }); !files || !exists(files->front()))
+                fail(command + ": reference '" + item + "' does not exist");
         paths.push_back(fs::path(resolved_reference(item, fs::current_path())).lexically_normal().string());
+    }
     return paths.size() == 1 && exists(paths[0]) ? nlohmann::json(paths[0]) : nlohmann::json(paths);
 }
 
-void set_option(nlohmann::json& job, const SrispCommand& command, const Modifier& modifier, const std::string& word)
+void set_modifier(nlohmann::json& job, const SrispCommand& command, const Modifier& modifier, const std::string& word)
 {
     const std::string name = std::string("--") + command.name;
     const Option* const option = find_option(command.door, modifier.first);
@@ -104,7 +104,7 @@ nlohmann::json job_of(const Step& step)
     const std::string name = std::string("--") + command.name;
     nlohmann::json job = { { "format", "srisp-recipe-1" }, { "direction", command.direction } };
     for (const Modifier& modifier : parse_modifiers(step.words[0]))
-        set_option(job, command, modifier, step.words[0]);
+        set_modifier(job, command, modifier, step.words[0]);
     if (std::string(command.action) == "save") {
         job["file"] = frame_pattern_of_file(output_path(name, step.words[1]));
     } else if (command.argument && step.words[1] != kWithoutReference) {
@@ -115,4 +115,4 @@ nlohmann::json job_of(const Step& step)
     return job;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -7,7 +7,7 @@
 
 #include "command_line.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// A JSON file for the plugin, in the temporary folder: a job (`<n>.json`, pixels come by hand-over) or a recipe
 /// (`<n>.srisp`, with the path of the image).
@@ -21,4 +21,4 @@ struct JobFile {
 /// in another folder. References: the path of a file or folder, or an array of paths and globs.
 nlohmann::json job_of(const Step& step);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace srisp {
+namespace srisp::tool {
 
 using Modifier = std::pair<std::string, std::string>; ///< name and value
 using Modifiers = std::vector<Modifier>;
@@ -17,4 +17,4 @@ Modifiers parse_modifiers(const std::string& word);
 /// Whether oiiotool would find the modifier in its own command's word.
 bool has_modifier(const std::string& word, const std::string& name);
 
-} // namespace srisp
+} // namespace srisp::tool

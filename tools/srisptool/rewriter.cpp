@@ -10,7 +10,7 @@
 #include "modifiers.h"
 #include "output_depth.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -208,4 +208,4 @@ Rewritten rewrite(const std::vector<Step>& steps, const RewriteOptions& options)
     return Rewriter(options).run(steps);
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -5,7 +5,7 @@
 
 #include "recipe/option_table.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// What becomes of the image at one of our commands.
 enum class Effect {
@@ -29,4 +29,4 @@ struct SrispCommand {
 /// for unknown commands that begin with --srisp.
 const SrispCommand* find_srisp_command(const std::string& word);
 
-} // namespace srisp
+} // namespace srisp::tool
