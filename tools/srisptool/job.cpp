@@ -10,7 +10,6 @@
 #include "recipe/reference_pattern.h"
 
 #include "../common/failure.h"
-#include "modifiers.h"
 
 namespace srisp::tool {
 
