@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <regex>
 
-namespace srisp::tool {
+namespace srisp {
 
 /// `wildcards`: the characters that stand for digits; `range`: those that may stand before them.
 static std::string frame_pattern(const std::string& path, const char* wildcards, const char* range)
