@@ -41,7 +41,7 @@ Examples:
   srisptool raw.exr --srisp-process -o photo_again.png
   srisptool photo.jpg --srisp-params ref.dng > look.json
   srisptool photo.jpg --srisp-unprocess:params=look.json - -o raw.exr
-  srisptool --frames 1-240 shot.#.jpg --srisp-unprocess:hold=1 ref.dng -o raw.#.exr
+  srisptool --frames 1-240 s.#.jpg --srisp-unprocess:hold=1 ref.dng -o raw.#.exr
 
 Environment:
   SRISP_OIIOTOOL    the oiiotool to run; default: the first on PATH that is not
