@@ -12,6 +12,7 @@
 #include "base/seeded_hash.h"
 #include "camera_folder.h"
 #include "recipe/reference_pattern.h"
+#include "reference/file_type.h"
 
 namespace srisp::tool {
 

@@ -52,7 +52,7 @@ TEST_CASE("what commands take has help, and a job can say it")
         CHECK(typed == (*option.argument != '\0'));
         CHECK((option.type == OptionType::choice) == !option.values.empty());
         if (typed && option.type != OptionType::parameters)
-            CHECK(option.doors & kJob);
+            CHECK((option.doors & kJob) != 0);
     }
 }
 
