@@ -2,11 +2,8 @@
 #include "random_model.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
-#include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
@@ -147,18 +144,4 @@ std::string ModelFile::write(const std::string& path) const
 void write_file(const std::string& path, const std::string& bytes)
 {
     std::ofstream(path, std::ios::binary) << bytes;
-}
-
-ScratchFolder::ScratchFolder()
-{
-    std::string name = (std::filesystem::temp_directory_path() / "srisp-test-XXXXXX").string();
-    if (!mkdtemp(name.data()))
-        throw std::runtime_error("cannot make a folder for test files: " + name);
-    m_path = name;
-}
-
-ScratchFolder::~ScratchFolder()
-{
-    std::error_code error;
-    std::filesystem::remove_all(m_path, error);
 }

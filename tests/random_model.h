@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/safetensors.h"
+#include "scratch_folder.h"
 
 /// A small generator with the same numbers on every machine (splitmix64).
 class Random {
@@ -42,20 +43,6 @@ struct ModelFile {
 };
 
 ModelFile random_model(int kernel_size, std::uint64_t seed, int dictionary_size = 5);
-
-/// A folder of its own for a test's files, removed with what is in it when the object goes.
-class ScratchFolder {
-public:
-    ScratchFolder();
-    ~ScratchFolder();
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    std::string path(const std::string& name) const { return m_path + "/" + name; }
-
-private:
-    std::string m_path;
-};
 
 /// Writes a text or bytes to a file.
 void write_file(const std::string& path, const std::string& bytes);

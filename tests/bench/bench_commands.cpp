@@ -41,7 +41,7 @@ BenchLines bench_commands(const BenchSettings& settings)
     if (settings.reference.empty())
         return {};
     namespace fs = std::filesystem;
-    const auto shell_quoted = [](const std::string& word) { return srisp::shell_line({ word }); };
+    const auto shell_quoted = [](const std::string& word) { return srisp::tool::shell_line({ word }); };
     const std::string srisptool = shell_quoted(settings.bin + "/srisptool");
     const std::string plugins = shell_quoted(settings.bin + "/../lib/srisp");
     BenchLines lines{ start_up_line("start_up", srisptool + " --help", "oiiotool --help",
@@ -50,7 +50,7 @@ BenchLines bench_commands(const BenchSettings& settings)
                                     "oiiotool --help",
                                     "the stock oiiotool with the plugin on its path, beyond without") };
 
-    const srisp::TemporaryFolder temporary;
+    const srisp::tool::TemporaryFolder temporary;
     const fs::path& folder = temporary.path();
     const std::string photo = shell_quoted((folder / "photo.jpg").string()),
                       out = shell_quoted((folder / "out.exr").string());

@@ -47,7 +47,7 @@ BenchLines bench_libraries(const BenchSettings& settings)
             continue;
         const std::string threads = std::to_string(settings.threads);
         const std::string command = "OMP_WAIT_POLICY=passive OMP_NUM_THREADS=" + threads + " " +
-                                    srisp::shell_line({ program, "--megapixels", "6" }) + library.options;
+                                    srisp::tool::shell_line({ program, "--megapixels", "6" }) + library.options;
         std::vector<double> ratios;
         double ours = 0;
         for (int i = 0; i < 3; ++i) {

@@ -10,6 +10,7 @@
 #include "require.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 namespace {
 

@@ -12,6 +12,7 @@
 #include "require.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 using Json = nlohmann::ordered_json;
 
 namespace {

@@ -57,7 +57,7 @@ int main(int argc, char** argv)
     }
     if (settings.threads == 0)
         settings.threads = OIIO::get_int_attribute("threads", 1);
-    settings.bin = srisp::own_executable().parent_path().string();
+    settings.bin = srisp::tool::own_executable().parent_path().string();
     try {
         nlohmann::ordered_json all;
         for (const Part& part : kParts) {

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "pack/training_pack.h"
+#include "scratch_folder.h"
 #include "tiny_pack.h"
-#include "tools/scratch_folder.h"
 
 using namespace srisp;
 

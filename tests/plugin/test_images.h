@@ -8,8 +8,8 @@
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
+#include "scratch_folder.h"
 #include "srisp_input.h"
-#include "tools/scratch_folder.h"
 
 /// Smooth shapes with a little noise, the same on every machine; `channels` values per pixel in [low, high].
 inline std::vector<float> test_pixels(int width, int height, int channels, float low = 0.05f, float high = 0.95f)

@@ -10,7 +10,7 @@ template<class Call> std::string failure_of(Call call)
 {
     try {
         call();
-    } catch (const srisp::Failure& failure) {
+    } catch (const srisp::tool::Failure& failure) {
         return std::to_string(failure.exit_code) + ": " + failure.message;
     }
     return "";

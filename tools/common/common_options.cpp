@@ -6,7 +6,7 @@
 
 #include "failure.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 void describe_common_options(CLI::App& app, CommonOptions& options)
 {
@@ -33,4 +33,4 @@ bool parse_options(CLI::App& app, const CommonOptions& options, const char* name
     return !options.help && !options.version;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

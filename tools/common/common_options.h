@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// Options that mean the same in every tool that has them.
 struct CommonOptions {
@@ -19,4 +19,4 @@ void describe_common_options(CLI::App& app, CommonOptions& options);
 bool parse_options(CLI::App& app, const CommonOptions& options, const char* name, const char* help, int argc,
                    char** argv);
 
-} // namespace srisp
+} // namespace srisp::tool

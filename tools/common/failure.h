@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// Thrown inside a tool, caught by its main(): what to print on stderr, and the exit code.
 struct Failure {
@@ -23,4 +23,4 @@ constexpr int kExitUsage = 2;
     throw Failure{ kExitUsage, message };
 }
 
-} // namespace srisp
+} // namespace srisp::tool

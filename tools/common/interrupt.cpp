@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <initializer_list>
 
-namespace srisp {
+namespace srisp::tool {
 
 static volatile std::sig_atomic_t g_signal = 0;
 
@@ -39,4 +39,4 @@ void die_of(const Interrupted& interrupted)
     std::exit(128 + interrupted.signal);
 }
 
-} // namespace srisp
+} // namespace srisp::tool

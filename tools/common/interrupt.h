@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace srisp {
+namespace srisp::tool {
 
 /// Thrown when a signal asked this program to stop: everything unfinished is removed on the way to main().
 struct Interrupted {
@@ -17,4 +17,4 @@ void check_interrupt();
 /// Ends this program as the signal would have.
 [[noreturn]] void die_of(const Interrupted& interrupted);
 
-} // namespace srisp
+} // namespace srisp::tool

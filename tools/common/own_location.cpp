@@ -3,7 +3,7 @@
 
 #include "failure.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace fs = std::filesystem;
 
@@ -35,4 +35,4 @@ fs::path plugin_folder()
     fail("srisp.imageio.so is missing, this installation is incomplete (looked in " + searched + ")");
 }
 
-} // namespace srisp
+} // namespace srisp::tool

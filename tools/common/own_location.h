@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// The running program's file, links resolved.
 std::filesystem::path own_executable();
@@ -14,4 +14,4 @@ std::filesystem::path own_executable();
 /// the build tree and under any prefix. Fails with the folders that were looked in.
 std::filesystem::path plugin_folder();
 
-} // namespace srisp
+} // namespace srisp::tool

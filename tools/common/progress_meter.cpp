@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace srisp {
+namespace srisp::tool {
 
 ProgressMeter::ProgressMeter(std::string title, std::string unit, std::int64_t total, bool enabled, std::int64_t before)
     : m_title(std::move(title)), m_unit(std::move(unit)), m_total(total), m_before(before), m_enabled(enabled),
@@ -45,4 +45,4 @@ void ProgressMeter::wipe()
     m_shown = false;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// "45 s", "12 min", "3 h 20 min"
 std::string duration_text(double seconds);
@@ -33,4 +33,4 @@ private:
     Clock::time_point m_start, m_last;
 };
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -5,7 +5,7 @@
 
 #include "failure.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// The value, or a Failure with the error's message.
 template<class T> T require(Expected<T> result)
@@ -21,4 +21,4 @@ inline void require(const Status& status)
         fail(status.error().message);
 }
 
-} // namespace srisp
+} // namespace srisp::tool

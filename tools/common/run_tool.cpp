@@ -8,7 +8,7 @@
 #include "failure.h"
 #include "interrupt.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 int run_tool(const char* name, const std::function<int()>& body)
 {
@@ -26,4 +26,4 @@ int run_tool(const char* name, const std::function<int()>& body)
     }
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shell_quote.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 static bool is_plain(const std::string& word)
 {
@@ -25,4 +25,4 @@ std::string shell_line(const std::vector<std::string>& words)
     return line;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -16,7 +16,7 @@
 
 #include "failure.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace fs = std::filesystem;
 
@@ -125,4 +125,4 @@ void remove_temporary_folder(const fs::path& folder)
     fs::remove_all(folder, error);
 }
 
-} // namespace srisp
+} // namespace srisp::tool

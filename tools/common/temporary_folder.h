@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// A private folder (mode 700) that goes away with this object. Its lock is held while this process or a child that
 /// inherited it lives, so that the next run can tell the folders of killed runs and remove them.
@@ -30,4 +30,4 @@ void remove_temporary_folder(const std::filesystem::path& folder);
 /// In a temporary folder: the outputs that the guard saw being made, each ended by a NUL (output_guard.cpp).
 constexpr char kStartedOutputs[] = "started_outputs";
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -15,7 +15,7 @@
 #include "ocio_group.h"
 #include "pipeline_operators.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -149,4 +149,4 @@ BakeSummary bake(const Options& options)
     return summary;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -7,7 +7,7 @@
 #include "options.h"
 #include "output_names.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// A file that was written, and how far off it is.
 struct BakeReport {
@@ -26,4 +26,4 @@ struct BakeSummary {
 /// Chooses, bakes, measures and writes; nothing is written where something fails before. Throws Failure, Interrupted.
 BakeSummary bake(const Options& options);
 
-} // namespace srisp
+} // namespace srisp::tool

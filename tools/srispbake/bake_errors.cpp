@@ -6,7 +6,7 @@
 #include "../common/interrupt.h"
 #include "../common/require.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace OCIO = OCIO_NAMESPACE;
 
@@ -141,4 +141,4 @@ BakeErrors measure_errors(const OCIO::ConstTransformRcPtr& transform, const Choi
     return errors;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

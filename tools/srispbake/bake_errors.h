@@ -10,7 +10,7 @@
 
 #include "choice.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// Of |a − b| over all channels.
 struct ErrorSize {
@@ -32,4 +32,4 @@ struct BakeErrors {
 /// Applies the bake as a host does (CPU, default optimisation). Throws Failure.
 BakeErrors measure_errors(const OCIO_NAMESPACE::ConstTransformRcPtr& bake, const Choice& choice, Direction direction);
 
-} // namespace srisp
+} // namespace srisp::tool

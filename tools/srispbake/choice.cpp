@@ -12,7 +12,7 @@
 #include "base/file_bytes.h"
 #include "parameters/printed_parameters.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -84,4 +84,4 @@ Choice make_choice(const Options& options)
     return choice;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

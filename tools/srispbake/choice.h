@@ -12,7 +12,7 @@
 #include "options.h"
 #include "photo_sample.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// A model and the parameters that it chose or was given.
 struct Chosen {
@@ -32,4 +32,4 @@ struct Choice {
 /// Loads and chooses what the options ask for. Throws Failure.
 Choice make_choice(const Options& options);
 
-} // namespace srisp
+} // namespace srisp::tool

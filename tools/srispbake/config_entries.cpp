@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <sstream>
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -108,4 +108,4 @@ ConfigEntries config_entries(const std::array<double, 9>& to_reference)
     return { lines_of(looks), lines_of(spaces) };
 }
 
-} // namespace srisp
+} // namespace srisp::tool

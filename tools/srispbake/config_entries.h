@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// What is added to a config: sections and their lines, indented by two. `to_reference`: linear sRGB → the config's
 /// reference space, row-major.
@@ -24,4 +24,4 @@ extern const std::vector<AddedVariable> kAddedVariables;
 /// Names and aliases of what is added.
 extern const std::vector<std::string> kAddedLooks, kAddedColorSpaces, kAddedAliases;
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -15,7 +15,7 @@
 #include "linear_srgb.h"
 #include "yaml_sections.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace OCIO = OCIO_NAMESPACE;
 namespace fs = std::filesystem;
@@ -245,4 +245,4 @@ std::string fragment_text(const FragmentReport& report)
     return text;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// What was added to a config.
 struct FragmentReport {
@@ -23,4 +23,4 @@ FragmentReport add_fragment(const std::string& path, const std::string& output, 
 /// What is printed of it.
 std::string fragment_text(const FragmentReport& report);
 
-} // namespace srisp
+} // namespace srisp::tool

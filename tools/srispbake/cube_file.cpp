@@ -5,7 +5,7 @@
 
 #include "../common/require.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace OCIO = OCIO_NAMESPACE;
 
@@ -55,4 +55,4 @@ std::string CubeTable::text(const std::string& title, const std::vector<std::str
     return text;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

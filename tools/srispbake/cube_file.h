@@ -7,7 +7,7 @@
 
 #include "bake_errors.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// One table of `size`³ colours over [0,1]³ for the whole pipeline, for programs that know nothing else.
 class CubeTable {
@@ -25,4 +25,4 @@ private:
     std::vector<float> m_rgb; ///< red runs fastest
 };
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "help.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 const char kHelp[] = R"(srispbake -- bakes a reference RAW for hosts of OpenColorIO
 
@@ -58,4 +58,4 @@ Exit codes: 0, 1 where something failed, 2 for wrong usage; 128 and the signal's
 number where a signal ended it. No incomplete file is left.
 )";
 
-} // namespace srisp
+} // namespace srisp::tool

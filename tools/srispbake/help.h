@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace srisp {
+namespace srisp::tool {
 
 /// What srispbake --help prints.
 extern const char kHelp[];
 
-} // namespace srisp
+} // namespace srisp::tool

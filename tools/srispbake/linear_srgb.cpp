@@ -8,7 +8,7 @@
 #include "base/matrix3.h"
 #include "base/near_names.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace OCIO = OCIO_NAMESPACE;
 
@@ -113,4 +113,4 @@ LinearSrgb find_linear_srgb(const OCIO::ConstConfigRcPtr& config, const std::str
     return found;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -6,7 +6,7 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// How linear sRGB gets to the reference space of a config.
 struct LinearSrgb {
@@ -18,4 +18,4 @@ struct LinearSrgb {
 /// Failure: none of these, or it is no matrix that takes them there.
 LinearSrgb find_linear_srgb(const OCIO_NAMESPACE::ConstConfigRcPtr& config, const std::string& name);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -15,6 +15,7 @@
 #include "watch.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include "../common/failure.h"
 #include "output_names.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 void describe_options(CLI::App& app, Options& options)
 {
@@ -43,4 +43,4 @@ void check_options(const Options& options)
         fail_usage("--watch never ends, so it prints no JSON");
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -8,7 +8,7 @@
 
 #include "../common/common_options.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// What the command line asks for.
 struct Options : CommonOptions {
@@ -26,4 +26,4 @@ void describe_options(CLI::App& app, Options& options);
 /// Throws Failure where options contradict each other or what is needed is missing.
 void check_options(const Options& options);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -10,7 +10,7 @@
 #include "../common/failure.h"
 #include "clf_text.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace fs = std::filesystem;
 
@@ -86,4 +86,4 @@ void refuse_bake_of_another(const std::string& path, const std::string& referenc
              "); remove it, or give -o NAME");
 }
 
-} // namespace srisp
+} // namespace srisp::tool

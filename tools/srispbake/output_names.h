@@ -6,7 +6,7 @@
 
 #include <srisp/apply.h>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// One file to be written.
 struct OutputName {
@@ -33,4 +33,4 @@ void refuse_bake_of_another(const std::string& path, const std::string& referenc
 /// The line of a bake's description that tells its reference: "Reference: /plates/ref.dng".
 std::string reference_line(const std::string& reference);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -9,7 +9,7 @@
 #include "../common/require.h"
 #include "photo/photo_file.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -76,4 +76,4 @@ PhotoSample sample_of_thumbnail(const Thumbnail& picture, const std::string& nam
     return sample;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -6,7 +6,7 @@
 
 #include <srisp/image.h>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// Parts of a photo, to compare renderings on, and its thumbnail; all from reading it once.
 struct PhotoSample {
@@ -30,4 +30,4 @@ PhotoSample read_photo_sample(const std::string& path);
 /// The same of a picture that is in memory, a thumbnail.
 PhotoSample sample_of_thumbnail(const Thumbnail& picture, const std::string& name);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -8,7 +8,7 @@
 
 #include "../common/shell_quote.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -78,4 +78,4 @@ std::string name_warning(const std::string& reference)
            "', which OpenColorIO may take for a variable of the config; a plain name is safer";
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -3,7 +3,7 @@
 
 #include <sys/stat.h>
 
-namespace srisp {
+namespace srisp::tool {
 
 FileWatch::FileWatch(std::vector<std::string> paths)
     : m_paths(std::move(paths)), m_reported(state()), m_last(m_reported)
@@ -34,4 +34,4 @@ bool FileWatch::changed()
     return true;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// Tells when one of some files was changed, replaced, removed or came back.
 class FileWatch {
@@ -22,4 +22,4 @@ private:
     std::string m_reported, m_last;
 };
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -6,7 +6,7 @@
 
 #include "../common/failure.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -118,4 +118,4 @@ std::string YamlSections::text() const
     return text;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// The text of an OpenColorIO config, to which entries can be added without touching any other character of it: its
 /// top level is a YAML map whose sections start in the first column.
@@ -28,4 +28,4 @@ private:
     std::vector<std::string> m_lines;
 };
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -17,6 +17,7 @@
 #include "settings_json.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 using namespace srisp::train;
 
 namespace {

@@ -9,7 +9,7 @@
 #include "reflectance.h"
 #include "spectra.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace fs = std::filesystem;
 
@@ -174,4 +174,4 @@ CameraFolder read_camera_folder(const std::string& name)
     return result;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -5,7 +5,7 @@
 
 #include "pack/training_pack_index.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// What cameras are simulated from.
 struct CameraFolder {
@@ -22,4 +22,4 @@ bool is_camera_folder(const std::string& folder);
 /// file and reason.
 CameraFolder read_camera_folder(const std::string& folder);
 
-} // namespace srisp
+} // namespace srisp::tool

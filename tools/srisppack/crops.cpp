@@ -6,7 +6,7 @@
 
 #include "base/seeded_hash.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -67,4 +67,4 @@ void append_pixels(const std::vector<float>& rgb, std::vector<std::uint16_t>& pi
             pixels.push_back(std::uint16_t(std::lround(std::clamp(rgb[i], 0.0f, 1.0f) * 65535.0f)));
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -8,7 +8,7 @@
 
 #include <srisp/image.h>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// What is cut out of one image: the whole first, then up to `count` parts of the same proportions, each side 50 … 100
 /// % of the image's, placed at random. None is smaller than `size` pixels, so that squashing it to size × size does not
@@ -24,4 +24,4 @@ Roi stored_crop(const Roi& upright, int width, int height, int orientation);
 /// [3, size, size] from interleaved values in [0,1], as a pack holds them.
 void append_pixels(const std::vector<float>& rgb, std::vector<std::uint16_t>& pixels);
 
-} // namespace srisp
+} // namespace srisp::tool

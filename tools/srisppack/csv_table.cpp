@@ -7,7 +7,7 @@
 
 #include "../common/failure.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -96,4 +96,4 @@ CsvTable read_csv(const std::string& path)
     return table;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

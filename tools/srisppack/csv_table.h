@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// A table of texts with a header line, fields separated by commas, quoted where they hold commas (RFC 4180).
 struct CsvTable {
@@ -16,4 +16,4 @@ struct CsvTable {
 /// column twice.
 CsvTable read_csv(const std::string& path);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "help.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 const char kHelp[] = R"(srisppack -- makes a training pack of photos, RAW files and measured cameras
 
@@ -53,4 +53,4 @@ wrong usage; 128 and the signal's number where a signal ended it. Nothing of an
 incomplete pack is left.
 )";
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -13,7 +13,7 @@
 #include "camera_folder.h"
 #include "reference/camera_files.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace fs = std::filesystem;
 
@@ -189,4 +189,4 @@ Inputs find_inputs(const Options& options)
     return inputs;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

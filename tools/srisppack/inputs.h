@@ -7,7 +7,7 @@
 #include "manifest.h"
 #include "options.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// An image file to be packed.
 struct ImageInput {
@@ -30,4 +30,4 @@ struct Inputs {
 /// cameras, nothing to pack.
 Inputs find_inputs(const Options& options);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -15,7 +15,7 @@
 #include "thumbnail/area_squasher.h"
 #include "unmasked_part.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -227,4 +227,4 @@ std::vector<PackTask> linear_set_tasks(const std::string& path, const std::strin
     return tasks;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

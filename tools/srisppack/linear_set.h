@@ -6,7 +6,7 @@
 #include "manifest.h"
 #include "pack_task.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// Sets of linear images in one file, format "srisp-thumbnails-1" (docs/training.md): safetensors with `raw` [N,
 /// height, width, 3] (F16 or F32, black subtracted, in [0,1]), and if known `illuminant` [N, 3] (F32, camera RGB of the
@@ -20,4 +20,4 @@ int linear_set_size(const std::string& path);
 std::vector<PackTask> linear_set_tasks(const std::string& path, const std::string& name, const Provenance& provenance,
                                        const CropSettings& settings);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -10,6 +10,7 @@
 #include "pack_run.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 static int run(const Options& options)
 {

@@ -10,7 +10,7 @@
 #include "../common/failure.h"
 #include "csv_table.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace fs = std::filesystem;
 
@@ -78,4 +78,4 @@ Provenance Manifest::of(const std::string& name) const
     return provenance;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

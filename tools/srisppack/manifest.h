@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// What is known of a file beside its pixels.
 struct Provenance {
@@ -32,4 +32,4 @@ private:
     std::map<std::string, Provenance> m_files;
 };
 
-} // namespace srisp
+} // namespace srisp::tool

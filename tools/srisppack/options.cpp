@@ -5,7 +5,7 @@
 
 #include "pack/training_pack.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 void describe_options(CLI::App& app, Options& options)
 {
@@ -25,4 +25,4 @@ void describe_options(CLI::App& app, Options& options)
     app.add_flag("--replace", options.replace);
 }
 
-} // namespace srisp
+} // namespace srisp::tool

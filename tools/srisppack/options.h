@@ -9,7 +9,7 @@
 
 #include "../common/common_options.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// What the command line asks for.
 struct Options : CommonOptions {
@@ -25,4 +25,4 @@ struct Options : CommonOptions {
 /// Makes the parser; it fills `options`.
 void describe_options(CLI::App& app, Options& options);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -8,7 +8,7 @@
 #include "../common/interrupt.h"
 #include "base/parallel.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -80,4 +80,4 @@ PartReport pack_images(const std::vector<PackTask>& tasks, PackImagesWriter& wri
     return report;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

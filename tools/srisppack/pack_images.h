@@ -9,7 +9,7 @@
 #include "pack/training_pack_writer.h"
 #include "pack_task.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// What became of the images of one part.
 struct PartReport {
@@ -31,4 +31,4 @@ struct Progress {
 PartReport pack_images(const std::vector<PackTask>& tasks, PackImagesWriter& writer, const CropSettings& settings,
                        int threads, Progress& progress);
 
-} // namespace srisp
+} // namespace srisp::tool

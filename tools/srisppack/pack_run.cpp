@@ -14,7 +14,7 @@
 #include "photo_task.h"
 #include "raw_task.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -117,4 +117,4 @@ Summary make_pack(const Options& options)
     return summary;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -4,10 +4,10 @@
 #include "options.h"
 #include "summary.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// Makes the pack that the options describe. Messages on images that cannot be read go to stderr. Throws Failure and
 /// Interrupted; nothing of the pack is left then.
 Summary make_pack(const Options& options);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -9,7 +9,7 @@
 #include "pack/training_pack_index.h"
 #include <srisp/expected.h>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// One photo or RAW image as it goes into a pack.
 struct PackedScene {
@@ -32,4 +32,4 @@ struct CropSettings {
     std::uint64_t seed = 0;
 };
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -9,7 +9,7 @@
 
 #include "crops.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -88,4 +88,4 @@ PackTask photo_task(const std::string& path, const std::string& name, const Prov
     return { path, [=] { return pack_photo(path, name, provenance, settings); } };
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -12,7 +12,7 @@
 #include "crops.h"
 #include "thumbnail/area_squasher.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -100,4 +100,4 @@ PackTask raw_task(const std::string& path, const std::string& name, const Proven
     return { path, [=] { return pack_raw(path, name, provenance, settings); } };
 }
 
-} // namespace srisp
+} // namespace srisp::tool

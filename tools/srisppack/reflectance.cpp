@@ -6,7 +6,7 @@
 #include "../common/failure.h"
 #include "base/matrix3.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -88,4 +88,4 @@ std::array<Spectrum, 3> reflectance_basis(const std::vector<Spectrum>& measured,
     return basis;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

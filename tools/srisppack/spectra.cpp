@@ -13,7 +13,7 @@
 #include "csv_table.h"
 #include "model/safetensors.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -123,4 +123,4 @@ Spectrum resampled(const SpectraTable& table, std::size_t column)
     return result;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

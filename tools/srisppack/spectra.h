@@ -7,7 +7,7 @@
 
 #include "pack/training_pack.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// Spectra measured at the same wavelengths.
 struct SpectraTable {
@@ -30,4 +30,4 @@ SpectraTable read_spectra_csv(const std::string& path);
 using Spectrum = std::array<double, kPackWavelengths>;
 Spectrum resampled(const SpectraTable& table, std::size_t column);
 
-} // namespace srisp
+} // namespace srisp::tool

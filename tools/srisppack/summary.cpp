@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -104,4 +104,4 @@ std::string summary_json(const Summary& summary)
     return object.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
-} // namespace srisp
+} // namespace srisp::tool

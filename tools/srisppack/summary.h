@@ -8,7 +8,7 @@
 #include "pack/training_pack_index.h"
 #include "pack_images.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// What a run of srisppack made.
 struct Summary {
@@ -24,4 +24,4 @@ std::string summary_text(const Summary& summary);
 /// The same for programs.
 std::string summary_json(const Summary& summary);
 
-} // namespace srisp
+} // namespace srisp::tool

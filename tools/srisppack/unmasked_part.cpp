@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace srisp {
+namespace srisp::tool {
 
 static std::vector<bool> masked_pixels(const std::vector<float>& rgb, int width, int height)
 {
@@ -42,4 +42,4 @@ Roi largest_unmasked_part(const std::vector<float>& rgb, int width, int height)
     return best;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

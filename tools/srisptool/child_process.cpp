@@ -11,7 +11,7 @@
 
 #include "../common/failure.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -95,4 +95,4 @@ int HeldSignals::wait_for(int child)
     }
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// Replaces this process by the program; `words[0]` is its file. Fails if it cannot be run.
 [[noreturn]] void become(const std::vector<std::string>& words, const std::vector<std::string>& environment);
@@ -32,4 +32,4 @@ private:
     int m_came = 0;
 };
 
-} // namespace srisp
+} // namespace srisp::tool

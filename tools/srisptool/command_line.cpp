@@ -5,7 +5,7 @@
 
 #include "../common/failure.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 std::vector<Step> parse_command_line(const std::vector<std::string>& words)
 {
@@ -33,4 +33,4 @@ bool contains(const std::vector<Step>& steps, const std::string& name)
     return std::any_of(steps.begin(), steps.end(), [&](const Step& step) { return step.is_named(name); });
 }
 
-} // namespace srisp
+} // namespace srisp::tool

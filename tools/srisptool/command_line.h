@@ -7,7 +7,7 @@
 #include "command_table.h"
 #include "srisp_command.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// One step of a command line: an image's name, a command of oiiotool with its arguments, or one of ours.
 struct Step {
@@ -26,4 +26,4 @@ std::vector<Step> parse_command_line(const std::vector<std::string>& words);
 /// Whether a command of that name (without dashes) is among the steps.
 bool contains(const std::vector<Step>& steps, const std::string& name);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <unordered_map>
 
-namespace srisp {
+namespace srisp::tool {
 
 const std::vector<OiiotoolCommand>& oiiotool_commands()
 {
@@ -123,4 +123,4 @@ const OiiotoolCommand* find_oiiotool_command(const std::string& word)
     return found == by_name.end() ? nullptr : found->second;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

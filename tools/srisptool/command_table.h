@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// What a command of oiiotool means for the rewriting.
 enum class Role {
@@ -34,4 +34,4 @@ bool is_command(const std::string& word);
 /// The name in such a word: without dashes and modifiers.
 std::string command_name(const std::string& word);
 
-} // namespace srisp
+} // namespace srisp::tool

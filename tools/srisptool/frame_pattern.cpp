@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// `wildcards`: the characters that stand for digits; `range`: those that may stand before them.
 static std::string frame_pattern(const std::string& path, const char* wildcards, const char* range)
@@ -32,4 +32,4 @@ std::string frame_pattern_of_image(const std::string& path)
     return frame_pattern(path, "#@", "0123456789-,xy");
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// The path with the frame wildcard of its last part as printf has it, which the plugin fills in: `p.#.json` →
 /// `p.%04d.json`. As in oiiotool a '#' is four digits.
@@ -13,4 +13,4 @@ std::string frame_pattern_of_file(const std::string& path);
 /// with a range: `s.1-9@@.tif` → `s.%02d.tif`.
 std::string frame_pattern_of_image(const std::string& path);
 
-} // namespace srisp
+} // namespace srisp::tool

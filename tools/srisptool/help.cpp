@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "help.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 const char kHelp[] = R"(srisptool -- oiiotool, and the way from a photo to a RAW-like image and back
 
@@ -67,4 +67,4 @@ Exit codes: oiiotool's own; 1 where srisptool itself failed, 2 for wrong usage
 of its commands.
 )";
 
-} // namespace srisp
+} // namespace srisp::tool

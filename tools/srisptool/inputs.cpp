@@ -10,7 +10,7 @@
 
 #include "../common/failure.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace fs = std::filesystem;
 
@@ -90,4 +90,4 @@ std::string output_path(const std::string& command, const std::string& path)
     return file.string();
 }
 
-} // namespace srisp
+} // namespace srisp::tool

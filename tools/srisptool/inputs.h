@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace srisp {
+namespace srisp::tool {
 
 // What a command names is looked up before oiiotool starts, so that a slip costs no work and touches no output. Paths
 // come out absolute: job files lie in another folder. Each fails with the command and the name as typed.
@@ -23,4 +23,4 @@ std::string model_input(const std::string& command, const std::string& name_or_p
 /// The path of a file to be written, whose folder must exist.
 std::string output_path(const std::string& command, const std::string& path);
 
-} // namespace srisp
+} // namespace srisp::tool

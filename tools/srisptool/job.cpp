@@ -10,7 +10,7 @@
 #include "inputs.h"
 #include "modifiers.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -71,4 +71,4 @@ nlohmann::json job_of(const Step& step)
     return job;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -8,7 +8,7 @@
 
 #include "command_line.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// A JSON file for the plugin, in the temporary folder: a job (`<n>.json`, pixels come by hand-over) or a recipe
 /// (`<n>.srisp`, with the path of the image).
@@ -20,4 +20,4 @@ struct JobFile {
 /// What one of our commands asks for, its modifiers and files checked.
 nlohmann::json job_of(const Step& step);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -9,6 +9,7 @@
 #include "session.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 static bool uses_images_of_ours(const std::vector<Step>& steps)
 {

@@ -3,7 +3,7 @@
 
 #include "../common/failure.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -59,4 +59,4 @@ bool has_modifier(const std::string& word, const std::string& name)
     return word.find(":" + name + "=") != std::string::npos;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

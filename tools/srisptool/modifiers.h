@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace srisp {
+namespace srisp::tool {
 
 using Modifiers = std::vector<std::pair<std::string, std::string>>;
 
@@ -16,4 +16,4 @@ Modifiers parse_modifiers(const std::string& word);
 /// Whether oiiotool would find the modifier in its own command's word.
 bool has_modifier(const std::string& word, const std::string& name);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <cstring>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// Words of a list that is separated by spaces.
 static bool contains_word(const char* list, const std::string& word)
@@ -29,4 +29,4 @@ Depth deepest(const std::string& name)
     return Depth::any;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

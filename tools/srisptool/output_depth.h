@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// What a file format can hold of a linear image.
 enum class Depth {
@@ -15,4 +15,4 @@ enum class Depth {
 /// By the extension of a file name, or the name of a format.
 Depth deepest(const std::string& name);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -60,7 +60,7 @@ bool is_unfinished_output(const char* path)
 
 void list_output(const char* path)
 {
-    const char* const list = std::getenv(srisp::kGuardListVariable);
+    const char* const list = std::getenv(srisp::tool::kGuardListVariable);
     if (!list || !is_unfinished_output(path))
         return;
     const int saved = errno;

@@ -9,7 +9,7 @@
 #include "modifiers.h"
 #include "output_depth.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace {
 
@@ -207,4 +207,4 @@ Rewritten rewrite(const std::vector<Step>& steps, const RewriteOptions& options)
     return Rewriter(options).run(steps);
 }
 
-} // namespace srisp
+} // namespace srisp::tool

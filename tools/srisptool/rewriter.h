@@ -7,7 +7,7 @@
 #include "command_line.h"
 #include "job.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// A command line for the stock oiiotool, and the files that it needs.
 struct Rewritten {
@@ -30,4 +30,4 @@ struct RewriteOptions {
 /// name's place instead, and pixels are read only when needed. Names of the user never stand in words that are added.
 Rewritten rewrite(const std::vector<Step>& steps, const RewriteOptions& options);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -15,7 +15,7 @@
 #include "rewriter.h"
 #include "stock_oiiotool.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace fs = std::filesystem;
 
@@ -121,4 +121,4 @@ int run_rewritten(const std::string& program, const std::vector<Step>& steps)
     return exit_code;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -6,7 +6,7 @@
 
 #include "command_line.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// Runs a command line that has none of our image commands: the stock oiiotool takes the place of this process. Returns
 /// never, or fails.
@@ -16,4 +16,4 @@ namespace srisp {
 /// us. Returns the exit code; a signal that came meanwhile ends this process.
 int run_rewritten(const std::string& program, const std::vector<Step>& steps);
 
-} // namespace srisp
+} // namespace srisp::tool

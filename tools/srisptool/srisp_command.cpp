@@ -6,7 +6,7 @@
 #include "../common/failure.h"
 #include "command_table.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 static const std::vector<SrispCommand>& srisp_commands()
 {
@@ -42,4 +42,4 @@ const SrispCommand* find_srisp_command(const std::string& word)
     return nullptr;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

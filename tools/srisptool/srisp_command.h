@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// What becomes of the image at one of our commands.
 enum class Effect {
@@ -28,4 +28,4 @@ struct SrispCommand {
 /// for unknown commands that begin with --srisp.
 const SrispCommand* find_srisp_command(const std::string& word);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -11,7 +11,7 @@
 
 extern char** environ;
 
-namespace srisp {
+namespace srisp::tool {
 
 namespace fs = std::filesystem;
 
@@ -67,4 +67,4 @@ std::vector<std::string> environment_with_plugin(const fs::path& plugin_folder)
     return environment;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// The stock oiiotool: $SRISP_OIIOTOOL, else the first `oiiotool` on PATH that is neither this program nor another
 /// installation of it.
@@ -21,4 +21,4 @@ std::vector<std::string> environment_with_plugin(const std::filesystem::path& pl
 void set_variable(std::vector<std::string>& environment, const std::string& name, const std::string& value,
                   bool joined = false);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -9,7 +9,7 @@
 #include "model/model_files.h"
 #include "model_file.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 using namespace train;
 
@@ -108,4 +108,4 @@ void start_anchor(Session& session, Host& host, bool quiet, bool restart, const 
         fail(status.error().message);
 }
 
-} // namespace srisp
+} // namespace srisp::tool

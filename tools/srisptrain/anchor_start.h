@@ -6,7 +6,7 @@
 
 #include "host.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// How the anchor is fitted before the first step; nothing where the recipe takes a finished one as it is.
 std::optional<train::AnchorFitSettings> anchor_fit_of(const train::Recipe& recipe);
@@ -17,4 +17,4 @@ std::optional<train::AnchorFitSettings> anchor_fit_of(const train::Recipe& recip
 /// it keeps what it has and throws Interrupted.
 void start_anchor(Session& session, Host& host, bool quiet, bool restart, const std::function<void()>& still_there);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -4,7 +4,7 @@
 #include "model_file.h"
 #include "model_metadata.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 using namespace train;
 
@@ -31,4 +31,4 @@ Status Host::save_model(Unprocessor& model, const std::string& path, const std::
     return train::save_model(model, recipe.model, path, metadata, recipe.precision);
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -4,7 +4,7 @@
 #include "progress_line.h"
 #include "session.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// What a training run asks of this program: tests, model files, and telling people.
 class Host : public train::RunHost {
@@ -23,4 +23,4 @@ private:
     ProgressLine m_line;
 };
 
-} // namespace srisp
+} // namespace srisp::tool

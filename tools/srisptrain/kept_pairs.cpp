@@ -5,7 +5,7 @@
 #include "../common/interrupt.h"
 #include "output_folder.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 using namespace train;
 
@@ -60,4 +60,4 @@ void KeptPairs::keep(ProgressMeter& meter)
     }
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -8,7 +8,7 @@
 #include "anchor_pairs.h"
 #include "host.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 constexpr char kAnchorPairsFile[] = "anchor_pairs.safetensors";
 
@@ -37,4 +37,4 @@ private:
     int m_kept = 0;
 };
 
-} // namespace srisp
+} // namespace srisp::tool

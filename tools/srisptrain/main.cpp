@@ -7,6 +7,7 @@
 #include "train.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 namespace {
 

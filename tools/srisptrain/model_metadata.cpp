@@ -6,7 +6,7 @@
 
 #include "srisp_commit.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 using namespace train;
 
@@ -70,4 +70,4 @@ std::map<std::string, std::string> model_metadata(const Recipe& recipe, const Tr
     return metadata;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "options.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 static const char kFooter[] = R"(
 A recipe is a JSON file with the settings that differ from the defaults, or from
@@ -53,4 +53,4 @@ void describe_options(CLI::App& app, Options& options)
     app.add_flag("-q,--quiet", options.quiet, "no progress");
 }
 
-} // namespace srisp
+} // namespace srisp::tool

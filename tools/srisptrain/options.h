@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace srisp {
+namespace srisp::tool {
 
 /// The command line of srisptrain.
 struct Options {
@@ -23,4 +23,4 @@ struct Options {
 
 void describe_options(CLI::App& app, Options& options);
 
-} // namespace srisp
+} // namespace srisp::tool

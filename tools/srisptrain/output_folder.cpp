@@ -11,7 +11,7 @@
 
 #include "../common/failure.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 using namespace train;
 namespace fs = std::filesystem;
@@ -71,4 +71,4 @@ std::optional<TrainingState> find_checkpoint(const std::string& path, const Reci
     return std::move(*state);
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -7,7 +7,7 @@
 #include "checkpoint.h"
 #include "recipe.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// The folder of a training: made where it is missing, and no other process trains into it meanwhile.
 class OutputFolder {
@@ -37,4 +37,4 @@ std::map<std::string, std::string> origin_of(const train::Recipe& recipe, const 
 std::optional<train::TrainingState> find_checkpoint(const std::string& path, const train::Recipe& recipe,
                                                     const std::string& pack_hash);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -8,7 +8,7 @@
 
 #include "../common/progress_meter.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 using train::Progress;
 
@@ -74,4 +74,4 @@ void ProgressLine::wipe()
     m_shown = false;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

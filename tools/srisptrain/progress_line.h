@@ -6,7 +6,7 @@
 
 #include "training_run.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// "120/2400, 1.9/s, loss 0.043 (reverse 0.031, forward 0.012), 33.2 dB, 6.1 deg, 20 min left"
 std::string progress_text(const train::Progress& progress);
@@ -31,4 +31,4 @@ private:
     Clock::time_point m_last = Clock::now();
 };
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -12,7 +12,7 @@
 #include "output_folder.h"
 #include "train.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 using namespace train;
 
@@ -137,4 +137,4 @@ int rehearse(Session& session, const Options& options)
     return 0;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -12,7 +12,7 @@
 #include "network.h"
 #include "process_setup.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 using namespace train;
 
@@ -124,4 +124,4 @@ Session open_session(const Options& options)
     return session;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -9,7 +9,7 @@
 #include "pack/training_pack.h"
 #include "recipe.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// Everything that a training needs, as command line and recipe say.
 struct Session {
@@ -35,4 +35,4 @@ train::LoadedRecipe recipe_of(const Options& options);
 /// Opens everything; fails with a message about what is wrong.
 Session open_session(const Options& options);
 
-} // namespace srisp
+} // namespace srisp::tool

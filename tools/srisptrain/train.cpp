@@ -8,7 +8,7 @@
 #include "kept_pairs.h"
 #include "output_folder.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 using namespace train;
 
@@ -109,4 +109,4 @@ int test_only(Session& session, const Options& options)
     return 0;
 }
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -3,7 +3,7 @@
 
 #include "session.h"
 
-namespace srisp {
+namespace srisp::tool {
 
 /// Trains to the end, or until a signal comes; the exit code.
 int train_model(Session& session, const Options& options);
@@ -14,4 +14,4 @@ int rehearse(Session& session, const Options& options);
 /// Tests a method that has nothing to learn; the exit code.
 int test_only(Session& session, const Options& options);
 
-} // namespace srisp
+} // namespace srisp::tool

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include "tools/scratch_folder.h"
+#include "scratch_folder.h"
 
 using namespace srisp;
 namespace fs = std::filesystem;

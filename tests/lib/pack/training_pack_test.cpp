@@ -8,8 +8,8 @@
 #include <doctest/doctest.h>
 
 #include "pack/training_pack_writer.h"
+#include "scratch_folder.h"
 #include "tiny_pack.h"
-#include "tools/scratch_folder.h"
 
 using namespace srisp;
 using nlohmann::json;

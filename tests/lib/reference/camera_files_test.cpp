@@ -10,8 +10,8 @@
 #include <srisp/reference.h>
 
 #include "lib/reference/synthetic_dng.h"
+#include "scratch_folder.h"
 #include "shared_files.h"
-#include "tools/scratch_folder.h"
 
 using namespace srisp;
 

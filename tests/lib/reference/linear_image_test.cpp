@@ -7,8 +7,8 @@
 #include <srisp/reference.h>
 #include <srisp/thumbnail.h>
 
+#include "scratch_folder.h"
 #include "shared_files.h"
-#include "tools/scratch_folder.h"
 
 using namespace srisp;
 

@@ -9,8 +9,8 @@
 #include <tiffio.h>
 
 #include "lib/reference/synthetic_dng.h"
+#include "scratch_folder.h"
 #include "shared_files.h"
-#include "tools/scratch_folder.h"
 
 using namespace srisp;
 

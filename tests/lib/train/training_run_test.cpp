@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include "tools/scratch_folder.h"
+#include "scratch_folder.h"
 #include "toy_training.h"
 
 using namespace srisp;

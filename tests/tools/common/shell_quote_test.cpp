@@ -3,9 +3,10 @@
 
 #include <doctest/doctest.h>
 
-#include "../scratch_folder.h"
+#include "scratch_folder.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 TEST_CASE("plain words stay as they are, others are quoted")
 {

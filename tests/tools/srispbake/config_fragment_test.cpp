@@ -9,9 +9,10 @@
 
 #include "../../../tools/srispbake/linear_srgb.h"
 #include "../failure_of.h"
-#include "../scratch_folder.h"
+#include "scratch_folder.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 namespace OCIO = OCIO_NAMESPACE;
 
 namespace {

@@ -6,6 +6,7 @@
 #include "../failure_of.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 static std::string complaint(const std::string& command_line)
 {

@@ -6,9 +6,10 @@
 #include <OpenImageIO/imagebuf.h>
 
 #include "../failure_of.h"
-#include "../scratch_folder.h"
+#include "scratch_folder.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 namespace {
 

@@ -8,10 +8,11 @@
 #include <doctest/doctest.h>
 
 #include "../failure_of.h"
-#include "../scratch_folder.h"
+#include "scratch_folder.h"
 #include "shared_files.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include "thumbnail/area_squasher.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 TEST_CASE("crops are half to all of a photo, inside it, and never smaller than what they are squashed to")
 {

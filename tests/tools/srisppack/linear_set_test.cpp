@@ -5,11 +5,12 @@
 
 #include <doctest/doctest.h>
 
-#include "../scratch_folder.h"
 #include "base/half_float.h"
 #include "model/safetensors_writer.h"
+#include "scratch_folder.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 namespace {
 

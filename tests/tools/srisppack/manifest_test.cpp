@@ -5,9 +5,10 @@
 
 #include "../../../tools/srisppack/csv_table.h"
 #include "../failure_of.h"
-#include "../scratch_folder.h"
+#include "scratch_folder.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 TEST_CASE("a table is read with quotes, empty fields, Windows line ends and a missing last line end")
 {

@@ -6,6 +6,7 @@
 #include "../../../tools/srisppack/help.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 TEST_CASE("the help names every option of srisppack, and no other")
 {

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 using namespace srisp;
+using namespace srisp::tool;
 
 namespace {
 

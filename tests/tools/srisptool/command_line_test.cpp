@@ -6,6 +6,7 @@
 #include "../failure_of.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 using Words = std::vector<std::string>;
 
 TEST_CASE("arguments belong to their commands")

@@ -6,9 +6,10 @@
 
 #include <doctest/doctest.h>
 
-#include "../scratch_folder.h"
+#include "scratch_folder.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 namespace {
 

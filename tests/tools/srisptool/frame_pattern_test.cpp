@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 using namespace srisp;
+using namespace srisp::tool;
 
 TEST_CASE("the wildcard of a file name becomes printf's, that of a folder stays")
 {

@@ -4,9 +4,10 @@
 #include <doctest/doctest.h>
 
 #include "../failure_of.h"
-#include "../scratch_folder.h"
+#include "scratch_folder.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 namespace {
 

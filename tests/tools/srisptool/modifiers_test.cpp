@@ -6,6 +6,7 @@
 #include "../failure_of.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 TEST_CASE("modifiers are read as oiiotool reads them")
 {

@@ -7,9 +7,10 @@
 
 #include <doctest/doctest.h>
 
-#include "../scratch_folder.h"
+#include "scratch_folder.h"
 
 using namespace srisp;
+using namespace srisp::tool;
 
 TEST_CASE("the depth of a format is known by its extension, in any case and behind any name")
 {

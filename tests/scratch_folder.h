@@ -6,17 +6,24 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 
-/// A folder for one test, gone at its end.
+/// A folder of its own for a test's files, removed with all that is in it at its end.
 class ScratchFolder {
 public:
     ScratchFolder()
     {
-        std::string name = (std::filesystem::temp_directory_path() / "test-XXXXXX").string();
-        m_path = mkdtemp(name.data());
+        m_path = (std::filesystem::temp_directory_path() / "srisp-test-XXXXXX").string();
+        if (!mkdtemp(m_path.data()))
+            throw std::runtime_error("cannot make a folder for test files: " + m_path);
     }
-    ~ScratchFolder() { std::filesystem::remove_all(m_path); }
+    ~ScratchFolder()
+    {
+        std::error_code error;
+        std::filesystem::remove_all(m_path, error);
+    }
     ScratchFolder(const ScratchFolder&) = delete;
     ScratchFolder& operator=(const ScratchFolder&) = delete;
 
