@@ -10,9 +10,9 @@ build=${SRISP_BUILD_DIR:-$source/build}
 jobs=$(nproc)
 
 sh "$source/tools/install-deps.sh"
-# A folder that is there is configured again, too: it may have been without LibTorch, which is here now.
+# A folder that is there is configured again, too: it may have been without the tests, or without LibTorch.
 if [ -f "$build/CMakeCache.txt" ]; then
-    cmake -S "$source" -B "$build"
+    cmake -S "$source" -B "$build" -DSRISP_BUILD_TESTS=ON
 else
     cmake -G Ninja -S "$source" -B "$build" -DCMAKE_BUILD_TYPE=Release
 fi
