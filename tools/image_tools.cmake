@@ -37,5 +37,5 @@ srisp_image_tool(srisppack srisp_static srisp_pack)
 srisp_man_page(srisppack --help)
 
 srisp_image_tool(srispbake srisp_ocio_static)
-target_include_directories(srispbake_parts PUBLIC ${PROJECT_SOURCE_DIR}/ocio/src)
+target_include_directories(srispbake_parts PRIVATE ${PROJECT_SOURCE_DIR}) # parts of ocio, by their path
 srisp_man_page(srispbake --help)

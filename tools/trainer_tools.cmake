@@ -25,7 +25,6 @@ add_executable(srisptrain
     srisptrain/model_metadata.cpp
     srisptrain/options.cpp
     srisptrain/output_folder.cpp
-    srisptrain/progress_line.cpp
     srisptrain/rehearse.cpp
     srisptrain/session.cpp
     srisptrain/train.cpp)

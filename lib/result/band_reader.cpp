@@ -2,6 +2,7 @@
 #include "result/band_reader.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "base/parallel.h"
 
@@ -104,7 +105,11 @@ Expected<std::shared_ptr<const BandReader::Band>> BandReader::compute(int index)
     ApplyOptions options;
     options.threads = m_settings.threads;
     options.progress = [&](float part) {
-        m_progress.show((m_bands_done + part) / m_done.size());
+        m_progress.show([&] {
+            char text[32];
+            std::snprintf(text, sizeof text, "srisp: %3.0f %%", (m_bands_done + part) / m_done.size() * 100.0);
+            return std::string(text);
+        });
         return true;
     };
     const Status applied = m_settings.applier->run(source, 0, first, m_width, m_height, Roi{ 0, m_width, y0, y1 },

@@ -7,9 +7,9 @@
 #include <srisp/apply.h>
 #include <srisp/photo.h>
 
+#include "base/progress.h"
 #include "photo/pixel_source.h"
 #include "photo/row_window.h"
-#include "result/progress.h"
 
 namespace srisp {
 

@@ -7,12 +7,11 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "../../tools/common/progress_meter.h"
+#include "base/progress.h"
 #include "photo_scores.h"
 #include "require.h"
 
 using namespace srisp;
-using namespace srisp::tool;
 using Json = nlohmann::ordered_json;
 
 namespace {
@@ -96,7 +95,7 @@ int run(const Settings& settings)
         sheets.paste(picture, kDisplayExponent, int(references.size()), 0);
     }
     std::vector<PhotoScores> scores;
-    ProgressMeter meter("contact_sheet", "photos", std::int64_t(settings.photos.size()), true);
+    ProgressMeter meter({ "contact_sheet", "photos", std::int64_t(settings.photos.size()) }, true);
     for (const std::string& path : settings.photos) {
         scores.push_back(judge_photo(*model, path, references, sheets, int(scores.size()) + 1));
         meter.show(std::int64_t(scores.size()));

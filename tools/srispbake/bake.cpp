@@ -10,10 +10,10 @@
 #include "../common/interrupt.h"
 #include "../common/require.h"
 #include "base/output_file.h"
-#include "clf_text.h"
 #include "cube_file.h"
-#include "ocio_group.h"
-#include "pipeline_operators.h"
+#include "ocio/src/clf_text.h"
+#include "ocio/src/ocio_group.h"
+#include "ocio/src/pipeline_operators.h"
 
 namespace srisp::tool {
 

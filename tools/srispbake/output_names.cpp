@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "../common/failure.h"
-#include "clf_text.h"
+#include "ocio/src/clf_text.h"
 
 namespace srisp::tool {
 

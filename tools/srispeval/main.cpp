@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "../common/failure.h"
-#include "../common/progress_meter.h"
 #include "../common/require.h"
 #include "../common/run_tool.h"
+#include "base/progress.h"
 #include "evaluation.h"
 #include "model/model_files.h"
 #include "model_file.h"
@@ -104,7 +104,7 @@ int run(const Options& options)
     set_up_process(options.threads);
     const std::vector<Method> methods = load_methods(options);
     const auto set = require(EvaluationSet::make(settings, *require(TrainingPack::open(options.pack))));
-    ProgressMeter meter("srispeval", "crops", std::int64_t(set->crops()) * methods.size(), !options.quiet);
+    ProgressMeter meter({ "srispeval", "crops", std::int64_t(set->crops() * methods.size()) }, !options.quiet);
     NamedScores scores;
     for (const Method& one : methods) {
         const std::int64_t before = std::int64_t(set->crops()) * scores.size();

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "../common/progress_meter.h"
+#include "base/progress.h"
 #include "pack/training_pack_writer.h"
 #include "pack_task.h"
 

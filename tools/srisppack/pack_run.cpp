@@ -90,7 +90,7 @@ Summary make_pack(const Options& options)
     const CropSettings photo_settings{ options.size, options.crops, options.seed };
     const CropSettings raw_settings{ choose_raw_size(options, inputs), options.crops, options.seed };
     const std::vector<PackTask> photos = photo_tasks(inputs, photo_settings), raws = raw_tasks(inputs, raw_settings);
-    ProgressMeter meter("srisppack", "images", std::int64_t(photos.size() + raws.size()), !options.quiet);
+    ProgressMeter meter({ "srisppack", "images", std::int64_t(photos.size() + raws.size()) }, !options.quiet);
     Progress progress{ meter };
 
     Summary summary{ options.output, {}, {}, {}, inputs.not_in_manifest, inputs.not_open, inputs.other_files };

@@ -33,7 +33,7 @@ std::optional<AnchorFit> fit(Session& session, Host& host, const AnchorFitSettin
     if (!restart)
         kept.find();
     {
-        ProgressMeter meter("srisptrain: for the anchor", "pairs", pairs->wanted(), !quiet, pairs->made());
+        ProgressMeter meter({ "srisptrain: for the anchor", "pairs", pairs->wanted(), pairs->made() }, !quiet);
         while (!pairs->complete()) {
             pairs->make_more(*session.samples);
             meter.show(pairs->made());
@@ -41,7 +41,7 @@ std::optional<AnchorFit> fit(Session& session, Host& host, const AnchorFitSettin
             kept.while_it_lasts(meter);
         }
     }
-    ProgressMeter meter("srisptrain: fitting the anchor", "%", 100, !quiet);
+    ProgressMeter meter({ "srisptrain: fitting the anchor", "%", 100 }, !quiet);
     return fit_anchor(*session.model, *pairs, settings, static_cast<std::uint64_t>(session.settings().seed),
                       [&](double part) {
                           meter.show(static_cast<std::int64_t>(part * 100));

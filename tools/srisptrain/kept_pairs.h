@@ -4,7 +4,6 @@
 #include <chrono>
 #include <string>
 
-#include "../common/progress_meter.h"
 #include "anchor_pairs.h"
 #include "host.h"
 

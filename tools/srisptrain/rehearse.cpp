@@ -7,8 +7,8 @@
 
 #include <ATen/Parallel.h>
 
-#include "../common/progress_meter.h"
 #include "anchor_start.h"
+#include "base/progress.h"
 #include "output_folder.h"
 #include "train.h"
 

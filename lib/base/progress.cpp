@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/progress.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace srisp {
+
+std::string duration_text(double seconds)
+{
+    const long whole = std::max(1L, long(seconds + 0.5));
+    if (whole < 100)
+        return std::to_string(whole) + " s";
+    const long minutes = (whole + 30) / 60;
+    return (minutes < 60 ? "" : std::to_string(minutes / 60) + " h ") + std::to_string(minutes % 60) + " min";
+}
+
+/// What fits into one line of the terminal: a line that is broken cannot be renewed.
+static std::string fitted(const std::string& text)
+{
+    winsize size{};
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 2)
+        return text;
+    return text.substr(0, size.ws_col - 1u);
+}
+
+ProgressLine::ProgressLine(bool enabled)
+    : m_enabled(enabled), m_terminal(isatty(STDERR_FILENO) == 1), m_start(Clock::now()), m_last(m_start)
+{
+}
+
+bool ProgressLine::due()
+{
+    const auto now = Clock::now();
+    const auto pause = m_terminal ? std::chrono::milliseconds(200) : std::chrono::milliseconds(30'000);
+    if (!m_enabled || now - m_start < std::chrono::seconds(2) || now - m_last < pause)
+        return false;
+    m_last = now;
+    return true;
+}
+
+void ProgressLine::print(const std::string& text)
+{
+    m_shown = m_terminal;
+    if (m_terminal)
+        std::fprintf(stderr, "\r\033[K%s", fitted(text).c_str());
+    else
+        std::fprintf(stderr, "%s\n", text.c_str());
+    std::fflush(stderr);
+}
+
+void ProgressLine::wipe()
+{
+    if (m_shown)
+        std::fputs("\r\033[K", stderr);
+    m_shown = false;
+}
+
+std::string WorkCount::text(std::int64_t done, double seconds) const
+{
+    const double rate = double(done - before) / seconds;
+    char numbers[32];
+    std::snprintf(numbers, sizeof numbers, "%.*f/s", rate < 10 ? 1 : 0, rate);
+    return title + ": " + std::to_string(done) + " of " + std::to_string(total) + " " + unit + ", " + numbers + ", " +
+           duration_text(double(total - done) / rate) + " left";
+}
+
+void ProgressMeter::show(std::int64_t done)
+{
+    if (done > m_count.before)
+        m_line.show([&] { return m_count.text(done, std::chrono::duration<double>(Clock::now() - m_start).count()); });
+}
+
+} // namespace srisp
