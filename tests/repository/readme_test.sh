@@ -22,7 +22,7 @@ cat >"$work/tests/run.sh" <<'END'
 set -e
 run=$(dirname "$0")/real_run.sh
 sh "$run" -N >"$SRISP_NEWCOMER/run.without"
-[ ! -f "$SRISP_NEWCOMER/trainer" ] || rm "$SRISP_NEWCOMER/hidden"
+[ ! -f "$SRISP_NEWCOMER/trainer" ] || rm -f "$SRISP_NEWCOMER/hidden"
 sh "$run" -N >"$SRISP_NEWCOMER/run.with"
 END
 cp "$sample/photo.jpg" "$work/photo.jpg"
