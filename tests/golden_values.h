@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include "base/input_file.h"
 #include "model/safetensors.h"
 #include "shared_files.h"
 
