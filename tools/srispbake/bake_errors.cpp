@@ -117,7 +117,7 @@ void ErrorSize::add(const std::vector<float>& a, const std::vector<float>& b)
     values += static_cast<std::int64_t>(a.size());
 }
 
-BakeErrors measure_errors(const OCIO::ConstTransformRcPtr& transform, const Choice& choice, Direction direction)
+BakeErrors measure_errors(const OCIO::ConstTransformRcPtr& transform, const BakeChoice& choice, Direction direction)
 {
     const Bake bake(transform);
     const Renderer pointwise(choice.pointwise, direction), reverse(choice.pointwise, Direction::reverse);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../../../tools/srispbake/options.h"
+#include "../../../tools/srispbake/bake_options.h"
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@ using namespace srisp::tool;
 static std::string complaint(const std::string& command_line)
 {
     return failure_of([&] {
-        Options options;
+        BakeOptions options;
         CLI::App app;
         describe_options(app, options);
         app.parse(command_line);

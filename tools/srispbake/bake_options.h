@@ -11,7 +11,7 @@
 namespace srisp::tool {
 
 /// What the command line asks for.
-struct Options : CommonOptions {
+struct BakeOptions : CommonOptions {
     std::string reference, source, parameters, model = "pointwise", output;
     std::string direction; ///< of a single file: "unprocess" or "process"
     int lut_size = kDefaultLut;
@@ -21,9 +21,12 @@ struct Options : CommonOptions {
 };
 
 /// Makes the parser; it fills `options`.
-void describe_options(CLI::App& app, Options& options);
+void describe_options(CLI::App& app, BakeOptions& options);
 
 /// Throws Failure where options contradict each other or what is needed is missing.
-void check_options(const Options& options);
+void check_options(const BakeOptions& options);
+
+/// What srispbake --help prints.
+extern const char kHelp[];
 
 } // namespace srisp::tool
