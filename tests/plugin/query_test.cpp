@@ -94,3 +94,10 @@ TEST_CASE("frame numbers replace # and %d in file names")
     CHECK(with_frame("p.json", "7") == "p.json");
     CHECK(with_frame("p.#.json", "") == "p.#.json");
 }
+
+TEST_CASE("a recipe that says nothing to choose by is refused on opening")
+{
+    const ScratchFolder folder;
+    const std::string photo = write_photo(folder);
+    CHECK(has(refusal_of(photo + ".srisp"), "names no reference (a RAW file) and no parameters"));
+}

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recipe/recipe.h"
 
-#include "test_images.h"
+#include <doctest/doctest.h>
+
+#include "scratch_folder.h"
 
 using namespace srisp;
 
@@ -19,6 +21,11 @@ std::string refused(const std::string& text, bool is_job = false)
     const auto recipe = recipe_from_json(text, "/shots/a.srisp", is_job);
     REQUIRE(!recipe);
     return recipe.error().message;
+}
+
+bool has(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
 }
 
 } // namespace
@@ -77,11 +84,4 @@ TEST_CASE("a wrong recipe says what is wrong, and where")
     CHECK(
         has(refused(R"({"format": "srisp-recipe-1", "parameters": 1})"), "'parameters': must be an object or a path"));
     CHECK(has(refused(R"({"format": "srisp-recipe-1", "direction": "fwd"})"), "unknown direction 'fwd'"));
-}
-
-TEST_CASE("a recipe that says nothing to choose by is refused on opening")
-{
-    const ScratchFolder folder;
-    const std::string photo = write_photo(folder);
-    CHECK(has(refusal_of(photo + ".srisp"), "names no reference (a RAW file) and no parameters"));
 }

@@ -31,22 +31,22 @@ Parameters some_parameters()
     return p;
 }
 
-Reference some_reference()
+CameraFacts some_camera()
 {
-    Reference reference;
-    reference.facts.make = "Canon";
-    reference.facts.model = "EOS 5D";
-    reference.facts.iso = 200;
-    reference.facts.white_level = 4095;
-    reference.facts.as_shot_neutral = { 0.5f, 1, 0.7f };
-    reference.facts.noise_profile = { 1e-4, 1e-6 };
+    CameraFacts camera;
+    camera.make = "Canon";
+    camera.model = "EOS 5D";
+    camera.iso = 200;
+    camera.white_level = 4095;
+    camera.as_shot_neutral = { 0.5f, 1, 0.7f };
+    camera.noise_profile = { 1e-4, 1e-6 };
     CameraFacts::ColorMatrix tungsten, daylight;
     tungsten.xyz_to_camera = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
     tungsten.illuminant = 17;
     daylight.xyz_to_camera = { 0.6347f, -0.0479f, -0.0972f, -0.8297f, 1.5954f, 0.248f, -0.1968f, 0.2131f, 0.7649f };
     daylight.illuminant = 21;
-    reference.facts.color_matrices = { tungsten, daylight };
-    return reference;
+    camera.color_matrices = { tungsten, daylight };
+    return camera;
 }
 
 OIIO::ImageSpec photo_spec()
@@ -89,9 +89,9 @@ OIIO::ImageSpec written_and_read(const OIIO::ImageSpec& spec, const std::string&
 
 TEST_CASE("parameters survive EXR, TIFF, PNG and JPEG to the bit")
 {
-    const Reference reference = some_reference();
+    const CameraFacts camera = some_camera();
     OIIO::ImageSpec spec = photo_spec();
-    record_result(spec, some_parameters(), &reference, Direction::reverse);
+    record_result(spec, some_parameters(), &camera, Direction::reverse);
     const std::pair<const char*, OIIO::TypeDesc> formats[] = {
         { "exr", OIIO::TypeHalf },  { "exr", OIIO::TypeFloat },  { "tif", OIIO::TypeUInt16 },
         { "tif", OIIO::TypeFloat }, { "png", OIIO::TypeUInt16 }, { "jpg", OIIO::TypeUInt8 }
@@ -110,9 +110,9 @@ TEST_CASE("parameters survive EXR, TIFF, PNG and JPEG to the bit")
 
 TEST_CASE("EXR also keeps the camera's facts, the name of the colour space and what is neutral")
 {
-    const Reference reference = some_reference();
+    const CameraFacts camera = some_camera();
     OIIO::ImageSpec spec = photo_spec();
-    record_result(spec, some_parameters(), &reference, Direction::reverse);
+    record_result(spec, some_parameters(), &camera, Direction::reverse);
     const OIIO::ImageSpec read = written_and_read(spec, "exr", OIIO::TypeHalf);
     CHECK(read.get_string_attribute("unprocess:colorspace") == kCameraColorSpace);
     CHECK(read.get_string_attribute("unprocess:synthetic").find("synthetic RAW-like image") == 0);
@@ -150,8 +150,8 @@ TEST_CASE("what described the photo's encoding is gone, its other words stay")
 TEST_CASE("a forward result is sRGB, synthetic, and not RAW-like")
 {
     OIIO::ImageSpec spec = photo_spec();
-    const Reference reference = some_reference();
-    record_result(spec, some_parameters(), &reference, Direction::reverse);
+    const CameraFacts camera = some_camera();
+    record_result(spec, some_parameters(), &camera, Direction::reverse);
     record_result(spec, some_parameters(), nullptr, Direction::forward);
     CHECK(!is_unprocessed(spec));
     CHECK(spec.get_string_attribute("oiio:ColorSpace") == "sRGB");
