@@ -8,7 +8,6 @@
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
-#include "../common/require.h"
 #include "bake_choice.h"
 #include "base/output_file.h"
 #include "ocio/src/clf_text.h"

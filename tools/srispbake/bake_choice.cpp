@@ -10,7 +10,6 @@
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
-#include "../common/require.h"
 #include "base/file_bytes.h"
 #include "parameters/printed_parameters.h"
 #include "photo/photo_file.h"

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "../common/failure.h"
 #include "../common/interrupt.h"
-#include "../common/require.h"
 
 namespace srisp::tool {
 

@@ -11,7 +11,6 @@
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
-#include "../common/run_tool.h"
 #include "bake.h"
 #include "config_fragment.h"
 

@@ -5,7 +5,6 @@
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
-#include "../common/run_tool.h"
 #include "pack_options.h"
 #include "pack_run.h"
 

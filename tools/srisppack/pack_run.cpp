@@ -11,7 +11,6 @@
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
-#include "../common/require.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "camera_folder.h"
