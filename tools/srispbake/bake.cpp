@@ -9,11 +9,11 @@
 #include "../common/failure.h"
 #include "../common/interrupt.h"
 #include "bake_choice.h"
+#include "bake_options.h"
 #include "base/output_file.h"
 #include "ocio/src/clf_text.h"
 #include "ocio/src/ocio_group.h"
 #include "ocio/src/pipeline_operators.h"
-#include "output_names.h"
 
 namespace srisp::tool {
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
+#include <srisp/apply.h>
 #include <srisp/ocio_transform.h>
 
 #include "../common/common_options.h"
@@ -28,5 +30,30 @@ void check_options(const BakeOptions& options);
 
 /// What srispbake --help prints.
 extern const char kHelp[];
+
+/// One file to be written.
+struct OutputName {
+    std::string path;
+    Direction direction;
+    bool cube; ///< .cube instead of .clf
+};
+
+/// Whether -o names one file (".clf", ".cube") instead of what a pair of names starts with.
+bool is_single_file(const std::string& output);
+
+/// "unprocess" or "process".
+const char* direction_name(Direction direction);
+
+/// The files that are asked for. `output`: as -o has it, or empty: beside the reference, or in the folder
+/// SRISP_BAKE_PATH where the reference's cannot be written to. Throws Failure: no folder to write to.
+std::vector<OutputName> output_names(const std::string& reference, const std::string& output,
+                                     const std::string& direction, bool cube);
+
+/// Throws Failure if the file at `path` is a bake of another reference than `reference` (an absolute path): in
+/// SRISP_BAKE_PATH those of two folders may have one name.
+void refuse_bake_of_another(const std::string& path, const std::string& reference);
+
+/// The line of a bake's description that tells its reference: "Reference: /plates/ref.dng".
+std::string reference_line(const std::string& reference);
 
 } // namespace srisp::tool

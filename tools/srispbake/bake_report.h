@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bake_errors.h"
-#include "output_names.h"
+#include "bake_options.h"
 
 namespace srisp::tool {
 
