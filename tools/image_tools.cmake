@@ -15,7 +15,7 @@ function(srisp_image_tool name)
 endfunction()
 
 # No OpenImageIO: it would cost its start-up time twice.
-srisp_image_tool(srisptool srisp_base srisp_model)
+srisp_image_tool(srisptool srisp_base srisp_model srisp_recipe)
 srisp_man_page(srisptool --srisp-help)
 
 # The same program under oiiotool's name, for those who put its folder in front of PATH.
@@ -34,9 +34,10 @@ if(SRISP_SANITIZE)
 endif()
 install(TARGETS output_guard DESTINATION ${CMAKE_INSTALL_LIBDIR}/srisp)
 
-srisp_image_tool(srisppack srisp_base srisp_model srisp_camera srisp_thumbnail srisp_photo srisp_reference srisp_pack)
+srisp_image_tool(srisppack srisp_base srisp_model srisp_camera srisp_recipe srisp_thumbnail srisp_photo srisp_reference
+    srisp_pack)
 srisp_man_page(srisppack --help)
 
-srisp_image_tool(srispbake srisp_base srisp_parameters srisp_photo srisp_ocio_static)
+srisp_image_tool(srispbake srisp_base srisp_photo srisp_ocio_static)
 target_include_directories(srispbake_parts PRIVATE ${PROJECT_SOURCE_DIR}) # parts of ocio, by their path
 srisp_man_page(srispbake --help)
