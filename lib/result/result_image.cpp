@@ -21,15 +21,15 @@ InputEncoding encoding_of(const Recipe& recipe)
 } // namespace
 
 Expected<std::unique_ptr<ResultImage>> ResultImage::open(const Recipe& recipe, std::unique_ptr<PixelSource> source,
-                                                         const OIIO::ImageSpec& config)
+                                                         const OIIO::ImageSpec& config, KeptResults& kept)
 {
     const std::string photo = recipe.source.empty() ? recipe.name : recipe.source;
-    auto chooser = Chooser::create(recipe, std::filesystem::path(photo).filename().string());
+    auto chooser = Chooser::create(recipe, std::filesystem::path(photo).filename().string(), kept);
     if (!chooser)
         return chooser.error();
     const bool associate = config.get_int_attribute("oiio:UnassociatedAlpha") == 0;
     auto image =
-        std::unique_ptr<ResultImage>(new ResultImage(recipe, std::move(source), std::move(*chooser), associate));
+        std::unique_ptr<ResultImage>(new ResultImage(recipe, std::move(source), std::move(*chooser), associate, kept));
     const auto first = image->existing_level(0, 0);
     if (!first)
         return first.error();
@@ -98,8 +98,8 @@ void ResultImage::tell(const Level& level, const std::vector<std::string>& notes
 {
     if (!m_recipe.notes)
         return;
-    print_notes(m_source->name(), level.converter->notes());
-    print_notes(m_source->name(), notes);
+    m_kept.print_notes(m_source->name(), level.converter->notes());
+    m_kept.print_notes(m_source->name(), notes);
 }
 
 Expected<const OIIO::ImageSpec*> ResultImage::header(int subimage, int miplevel)
