@@ -2,17 +2,14 @@
 // Every step of the LibTorch network against the values of an independent implementation.
 #include <doctest/doctest.h>
 
-<<<<<<< HEAD:tests/lib/train/golden_test.cpp
 #include "base/input_file.h"
-    =======
 #include "lib/train/tensor_tools.h"
-    >>>>>>> rooms:tests/lib/train/network/golden_test.cpp
 #include "model/safetensors.h"
 #include "shared_files.h"
 #include "train/network/network.h"
 #include "train/run/model_file.h"
 
-    using namespace srisp;
+using namespace srisp;
 using namespace srisp::train;
 
 namespace {

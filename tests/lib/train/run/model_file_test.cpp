@@ -5,17 +5,14 @@
 
 #include <doctest/doctest.h>
 
-<<<<<<< HEAD:tests/lib/train/model_file_test.cpp
 #include "base/input_file.h"
-#include "model/model_data.h"
-    =======
 #include "lib/train/tensor_tools.h"
-    >>>>>>> rooms:tests/lib/train/run/model_file_test.cpp
+#include "model/model_data.h"
 #include "model/safetensors.h"
 #include "random_model.h"
 #include "train/network/network.h"
 
-    using namespace srisp;
+using namespace srisp;
 using namespace srisp::train;
 
 namespace {
