@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include <srisp/metrics.h>
+
 #include "train/evaluation/measure.h"
 #include "train/evaluation/test_scenes.h"
 #include "train/network/unprocessor.h"
 #include "train/samples/packed_images.h"
 #include "train/tensors/resize.h"
-#include <srisp/metrics.h>
 
 namespace srisp::train {
 
