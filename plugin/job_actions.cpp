@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <srisp/metadata.h>
 
-#include "base/text_file.h"
+#include "base/output_file.h"
 #include "hand_over.h"
 #include "result/result_image.h"
 
@@ -57,7 +57,7 @@ Status save_parameters(const Recipe& job, const OIIO::ImageSpec& spec, const std
     // Folders are literal: they may well hold '#' or '%20d'.
     std::filesystem::path file = job.file;
     file.replace_filename(with_frame(file.filename().string(), frame));
-    const Status written = write_text_file(file.string(), to_json(*parameters) + "\n");
+    const Status written = write_output_file(file.string(), to_json(*parameters) + "\n");
     return written ? written : Status(Error{ "parameters " + written.error().message });
 }
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "base/text_file.h"
+#include "base/file_bytes.h"
 #include "hand_over.h"
 #include "query.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <exception>
 
-#include "base/text_file.h"
+#include "base/output_file.h"
 #include "job_actions.h"
 #include "open_name.h"
 
@@ -95,7 +95,7 @@ Status SrispOutput::finish()
         if (const Status saved = save_parameters(m_job, m_slot->subimages[0][0].spec, m_frame); !saved)
             return saved;
     // A host renames what it wrote, so there must be a file even where nothing is read back.
-    return write_text_file(m_path, stub_text(id));
+    return write_output_file(m_path, stub_text(id));
 }
 
 bool SrispOutput::write_scanline(int y, int z, OIIO::TypeDesc format, const void* data, OIIO::stride_t xstride)

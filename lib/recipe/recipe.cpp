@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/file_bytes.h"
 #include "base/near_names.h"
-#include "base/text_file.h"
 #include "parameters/printed_parameters.h"
 
 namespace srisp {

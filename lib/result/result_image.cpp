@@ -1,16 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "result/result_image.h"
 
+#include <cstdio>
 #include <filesystem>
+#include <mutex>
+#include <set>
 
 #include <OpenImageIO/strutil.h>
 #include <srisp/metadata.h>
 
-#include "result/notes.h"
-
 namespace srisp {
 
 namespace {
+
+/// Prints `srisp: note: image: text` on stderr, each once per process (hosts open a file several times per read).
+void print_notes(const std::string& image, const std::vector<std::string>& notes)
+{
+    constexpr std::size_t kMostRemembered = 10000;
+    static std::mutex& mutex = *new std::mutex;
+    static std::set<std::string>& printed = *new std::set<std::string>;
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (printed.size() > kMostRemembered)
+        printed.clear();
+    for (const std::string& note : notes) {
+        const std::string line = "srisp: note: " + image + ": " + note + "\n";
+        if (printed.insert(line).second)
+            std::fputs(line.c_str(), stderr);
+    }
+}
 
 /// A forward pass takes values as they are.
 InputEncoding encoding_of(const Recipe& recipe)
@@ -183,7 +200,7 @@ Status ResultImage::read(int subimage, int miplevel, int threads, int x0, int x1
         return bands.error();
     const Status done = (*bands)->read(x0, x1, y0, y1, out, row_stride);
     if (done && miplevel == 0 && (*bands)->complete())
-        tell(m_levels.at({ subimage, miplevel }), notes_of((*bands)->counts()));
+        tell(m_levels.at({ subimage, miplevel }), (*bands)->counts().notes());
     return done;
 }
 

@@ -5,6 +5,7 @@
 
 #include <srisp/model.h>
 
+#include "model/model_data.h"
 #include "parameters/parameter_checks.h"
 #include "select/selection.h"
 
@@ -32,7 +33,7 @@ Expected<Parameters> select(const Model& model, const Thumbnail& source, const T
     if (Status status = check_thumbnail(reference, "reference"); !status)
         return status.error();
     try {
-        Parameters parameters = select_parameters(model.data(), source, reference, nullptr);
+        Parameters parameters = select_parameters(model_data(model), source, reference, nullptr);
         if (Status status = check_values(parameters, "selecting parameters"); !status)
             return status.error();
         parameters.model_name = model.name();

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <srisp/photo_thumbnail.h>
+#include "photo/photo_reader.h"
 
 #include <OpenImageIO/imagebuf.h>
 #include <doctest/doctest.h>
+#include <srisp/photo.h>
 #include <srisp/thumbnail.h>
 
 #include "image_compare.h"
