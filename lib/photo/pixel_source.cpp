@@ -92,8 +92,9 @@ private:
 
 class WholeFileSource : public FileSource {
 public:
-    WholeFileSource(std::unique_ptr<OIIO::ImageInput> input, const std::string& path, const OIIO::ImageSpec& hints)
-        : FileSource(std::move(input), path, hints), m_name("photo '" + path + "'")
+    WholeFileSource(std::unique_ptr<OIIO::ImageInput> input, const std::string& path, const OIIO::ImageSpec& hints,
+                    const std::string& name)
+        : FileSource(std::move(input), path, hints), m_name(name)
     {
     }
 
@@ -136,21 +137,22 @@ Expected<std::unique_ptr<PixelSource>> open_file_source(const std::string& path,
     return std::unique_ptr<PixelSource>(std::make_unique<FileSource>(std::move(input), path, hints));
 }
 
-Expected<std::unique_ptr<PixelSource>> open_whole_file_source(const std::string& path)
+Expected<std::unique_ptr<PixelSource>> open_whole_file_source(const std::string& path, const std::string& kind)
 {
+    const std::string name = kind + " '" + path + "'";
     std::error_code ignored;
     // Before OpenImageIO sees the name: it would offer it to every plugin.
     if (!std::filesystem::is_regular_file(path, ignored))
-        return Error{ "photo '" + path +
-                      "': " + (std::filesystem::exists(path, ignored) ? "is no regular file" : "does not exist") };
+        return Error{ name + ": " +
+                      (std::filesystem::exists(path, ignored) ? "is no regular file" : "does not exist") };
     OIIO::ImageSpec hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);
     auto input = OIIO::ImageInput::open(path, &hints);
     if (!input) {
         const std::string reason = OIIO::geterror();
-        return Error{ "photo '" + path + "': " + (reason.empty() ? "is no image that OpenImageIO reads" : reason) };
+        return Error{ name + ": " + (reason.empty() ? "is no image that OpenImageIO reads" : reason) };
     }
-    return std::unique_ptr<PixelSource>(std::make_unique<WholeFileSource>(std::move(input), path, hints));
+    return std::unique_ptr<PixelSource>(std::make_unique<WholeFileSource>(std::move(input), path, hints, name));
 }
 
 } // namespace srisp
