@@ -15,13 +15,13 @@ OIIO_EXPORT const char* srisp_imageio_library_version()
 
 OIIO_EXPORT OIIO::ImageInput* srisp_input_imageio_create()
 {
-    return new srisp::SrispInput;
+    return new srisp::plugin::SrispInput;
 }
 OIIO_EXPORT const char* srisp_input_extensions[] = { "srisp", nullptr };
 
 OIIO_EXPORT OIIO::ImageOutput* srisp_output_imageio_create()
 {
-    return new srisp::SrispOutput;
+    return new srisp::plugin::SrispOutput;
 }
 OIIO_EXPORT const char* srisp_output_extensions[] = { "srisp", nullptr };
 

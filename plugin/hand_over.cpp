@@ -3,51 +3,16 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
-#include <mutex>
 
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
-namespace srisp {
+#include "process_state.h"
+
+namespace srisp::plugin {
 
 namespace {
 
 const char kStubFormat[] = "srisp-slot-1";
-
-class Slots {
-public:
-    std::string keep(std::shared_ptr<const Slot> slot)
-    {
-        const std::lock_guard<std::mutex> lock(m_mutex);
-        const std::string id = std::to_string(::getpid()) + "-" + std::to_string(++m_count);
-        std::string& last = m_last_of_job[slot->job];
-        m_slots.erase(last);
-        last = id;
-        m_slots[id] = std::move(slot);
-        return id;
-    }
-
-    std::shared_ptr<const Slot> find(const std::string& id)
-    {
-        const std::lock_guard<std::mutex> lock(m_mutex);
-        const auto found = m_slots.find(id);
-        return found == m_slots.end() ? nullptr : found->second;
-    }
-
-private:
-    std::mutex m_mutex;
-    int m_count = 0;
-    std::map<std::string, std::shared_ptr<const Slot>> m_slots;
-    std::map<std::string, std::string> m_last_of_job;
-};
-
-Slots& slots()
-{
-    // Never destroyed: other threads of the host may still read while statics end.
-    static Slots& all = *new Slots;
-    return all;
-}
 
 const SlotLevel* find_level_of(const Slot* slot, int subimage, int miplevel)
 {
@@ -63,7 +28,7 @@ public:
 
     bool find_level(int subimage, int miplevel, OIIO::ImageSpec& spec) override
     {
-        const auto slot = find_slot(m_id);
+        const auto slot = process_state().slots.find(m_id);
         const SlotLevel* level = find_level_of(slot.get(), subimage, miplevel);
         if (level)
             spec = level->spec;
@@ -72,7 +37,7 @@ public:
 
     Status read_rows(int subimage, int miplevel, int y0, int y1, float* rows) override
     {
-        const auto slot = find_slot(m_id);
+        const auto slot = process_state().slots.find(m_id);
         const SlotLevel* level = find_level_of(slot.get(), subimage, miplevel);
         if (!level)
             return Error{ m_name + ": is no longer kept, a later frame has taken its place" };
@@ -90,25 +55,20 @@ private:
 
 } // namespace
 
-void parse_stub_name(const std::string& path, std::string& job, std::string& frame)
+StubName parse_stub_name(const std::string& path)
 {
+    StubName parts;
     const std::filesystem::path file(path);
     const std::string name = file.filename().string();
     const std::size_t first = std::min(name.find('.'), name.size());
-    job = (file.parent_path() / (name.substr(0, first) + ".json")).string();
+    parts.job = (file.parent_path() / (name.substr(0, first) + ".json")).string();
     const std::size_t second = name.find('.', first + 1);
-    frame = first < name.size() && second != std::string::npos ? name.substr(first + 1, second - first - 1) : "";
+    std::string frame =
+        first < name.size() && second != std::string::npos ? name.substr(first + 1, second - first - 1) : "";
     if (frame.find_first_not_of("-0123456789") != std::string::npos)
         frame.clear();
-}
-
-std::string keep_slot(std::shared_ptr<const Slot> slot)
-{
-    return slots().keep(std::move(slot));
-}
-std::shared_ptr<const Slot> find_slot(const std::string& id)
-{
-    return slots().find(id);
+    parts.frame = frame;
+    return parts;
 }
 
 std::string stub_text(const std::string& id)
@@ -116,14 +76,13 @@ std::string stub_text(const std::string& id)
     return nlohmann::ordered_json{ { "format", kStubFormat }, { "slot", id } }.dump() + "\n";
 }
 
-bool parse_stub(const std::string& text, std::string& id)
+std::optional<std::string> parse_stub(const std::string& text)
 {
     const auto stub = nlohmann::json::parse(text, nullptr, false);
     if (!stub.is_object() || stub.value("format", nlohmann::json()) != kStubFormat)
-        return false;
+        return {};
     const nlohmann::json slot = stub.value("slot", nlohmann::json());
-    id = slot.is_string() ? slot.get<std::string>() : "";
-    return true;
+    return slot.is_string() ? slot.get<std::string>() : "";
 }
 
 std::unique_ptr<PixelSource> open_slot_source(const std::string& id, const std::string& name)
@@ -131,4 +90,4 @@ std::unique_ptr<PixelSource> open_slot_source(const std::string& id, const std::
     return std::make_unique<SlotSource>(id, name);
 }
 
-} // namespace srisp
+} // namespace srisp::plugin

@@ -2,45 +2,29 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
-#include <vector>
-
-#include <OpenImageIO/imageio.h>
-#include <srisp/expected.h>
 
 #include "photo/pixel_source.h"
 
-// The hand-over: our writer keeps an image in the memory of the process and leaves a stub file; our reader finds the
-// image by the stub. srisptool makes the folder and the job files; a stub `T/1.0007.srisp` belongs to job `T/1.json`,
-// frame 0007.
+// The hand-over: our writer keeps an image in the memory of the process (a slot) and leaves a stub file; our reader
+// finds the image by the stub. srisptool makes the folder and the job files; a stub `T/1.0007.srisp` belongs to job
+// `T/1.json`, frame 0007.
 
-namespace srisp {
-
-/// One image as our writer got it.
-struct SlotLevel {
-    OIIO::ImageSpec spec;      ///< float
-    std::vector<float> pixels; ///< all channels of the data window
-};
-struct Slot {
-    std::vector<std::vector<SlotLevel>> subimages; ///< MIP levels of each
-    std::string job;                               ///< path of the job file
-    std::string frame;                             ///< frame number as in the stub's name; may be empty
-};
+namespace srisp::plugin {
 
 /// Job file and frame that a stub's path (or the temporary name that a host writes to first) stands for.
-void parse_stub_name(const std::string& path, std::string& job, std::string& frame);
+struct StubName {
+    std::string job;
+    std::string frame; ///< may be empty
+};
+StubName parse_stub_name(const std::string& path);
 
-/// Keeps a slot and returns its id. The previous slot of the same job is freed, though readers of it may be open: hosts
-/// keep many open, and a shot would fill the memory.
-std::string keep_slot(std::shared_ptr<const Slot> slot);
-/// Null: no such slot in this process.
-std::shared_ptr<const Slot> find_slot(const std::string& id);
-
-/// The text of a stub file, and the slot's id in one; false: the text is no stub.
+/// The text of a stub file, and the slot's id in one; none: the text is no stub.
 std::string stub_text(const std::string& id);
-bool parse_stub(const std::string& text, std::string& id);
+std::optional<std::string> parse_stub(const std::string& text);
 
 /// Reads from a slot while that is kept. `name`: what the image is called in messages.
 std::unique_ptr<PixelSource> open_slot_source(const std::string& id, const std::string& name);
 
-} // namespace srisp
+} // namespace srisp::plugin

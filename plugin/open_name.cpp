@@ -3,13 +3,44 @@
 
 #include <filesystem>
 
+#include <OpenImageIO/strutil.h>
+
 #include "base/file_bytes.h"
 #include "hand_over.h"
-#include "query.h"
+#include "process_state.h"
 
-namespace srisp {
+namespace srisp::plugin {
 
 namespace {
+
+namespace Strutil = OIIO::Strutil;
+
+const std::string kExtension = ".srisp";
+const std::string kHintPrefix = "srisp:";
+
+int hex_digit(char c)
+{
+    const std::size_t value = std::string("0123456789abcdef").find(Strutil::lower(std::string(1, c)));
+    return value == std::string::npos ? -1 : static_cast<int>(value);
+}
+
+Expected<std::string> percent_decoded(const std::string& text)
+{
+    std::string decoded;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] != '%') {
+            decoded += text[i];
+            continue;
+        }
+        const int high = i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
+        const int low = i + 2 < text.size() ? hex_digit(text[i + 2]) : -1;
+        if (high < 0 || low < 0)
+            return Error{ "'" + text.substr(i, 3) + "' in the query is no percent code (write %25 for %)" };
+        decoded += static_cast<char>(high * 16 + low);
+        i += 2;
+    }
+    return decoded;
+}
 
 constexpr std::size_t kMostRecipe = 1 << 20; // bytes
 
@@ -32,23 +63,69 @@ Status apply_settings(Recipe& recipe, const QueryName& parts, const OIIO::ImageS
 Expected<std::unique_ptr<ResultImage>> open_stub(const QueryName& parts, const std::string& slot_id,
                                                  const OIIO::ImageSpec& config)
 {
-    if (!find_slot(slot_id))
+    if (!process_state().slots.find(slot_id))
         return Error{ "'" + parts.file + "': the image that it stood for was in the memory of another process" };
-    std::string frame;
-    auto job = read_job(parts.file, frame);
+    auto job = read_job(parts.file);
     if (!job)
         return job.error();
     if (const Status applied = apply_settings(*job, parts, config); !applied)
         return applied.error();
-    return ResultImage::open(*job, open_slot_source(slot_id, job->name), config);
+    return ResultImage::open(*job, open_slot_source(slot_id, job->name), config, process_state().results);
 }
 
 } // namespace
 
-Expected<Recipe> read_job(const std::string& stub_path, std::string& frame)
+std::optional<QueryName> parse_name(const std::string& name)
 {
-    std::string path;
-    parse_stub_name(stub_path, path, frame);
+    QueryName parts;
+    const std::string lower = Strutil::lower(name);
+    std::size_t end = lower.find(kExtension + "?");
+    if (end == std::string::npos) {
+        if (!Strutil::ends_with(lower, kExtension))
+            return {};
+        end = name.size() - kExtension.size();
+    } else {
+        parts.query = name.substr(end + kExtension.size() + 1);
+    }
+    parts.source = name.substr(0, end);
+    parts.file = name.substr(0, end + kExtension.size());
+    return parts.source.empty() ? std::nullopt : std::optional<QueryName>(parts);
+}
+
+Status apply_query(Recipe& recipe, const std::string& query)
+{
+    for (std::size_t start = 0; start < query.size();) {
+        const std::size_t end = std::min(query.find('&', start), query.size());
+        const std::string item = query.substr(start, end - start);
+        start = end + 1;
+        const std::size_t equals = item.find('=');
+        if (equals == std::string::npos)
+            return Error{ "'" + item + "' in the query is not key=value" };
+        const auto key = percent_decoded(item.substr(0, equals));
+        const auto value = percent_decoded(item.substr(equals + 1));
+        if (!key || !value)
+            return key ? value.error() : key.error();
+        if (const Status set = set_by_text(recipe, *key, *value); !set)
+            return set;
+    }
+    return {};
+}
+
+Status apply_hints(Recipe& recipe, const OIIO::ImageSpec& config)
+{
+    for (const OIIO::ParamValue& hint : config.extra_attribs) {
+        const std::string name = hint.name().string();
+        if (!Strutil::istarts_with(name, kHintPrefix))
+            continue;
+        if (const Status set = set_by_text(recipe, name.substr(kHintPrefix.size()), hint.get_string()); !set)
+            return Error{ "configuration hint '" + name + "': " + set.error().message };
+    }
+    return {};
+}
+
+Expected<Recipe> read_job(const std::string& stub_path)
+{
+    const auto [path, frame] = parse_stub_name(stub_path);
     auto text = read_text_file(path, kMostRecipe);
     if (!text)
         return Error{ "job " + text.error().message };
@@ -60,43 +137,42 @@ Expected<Recipe> read_job(const std::string& stub_path, std::string& frame)
 
 bool is_our_name(const std::string& name)
 {
-    QueryName parts;
-    if (!parse_name(name, parts))
+    const auto parts = parse_name(name);
+    if (!parts)
         return false;
-    if (!exists(parts.file))
+    if (!exists(parts->file))
         return true;
-    const auto text = read_text_file(parts.file, kMostRecipe);
+    const auto text = read_text_file(parts->file, kMostRecipe);
     return text && text->find("\"srisp-") != std::string::npos;
 }
 
 Expected<std::unique_ptr<ResultImage>> open_name(const std::string& name, const OIIO::ImageSpec& config)
 {
-    QueryName parts;
-    if (!parse_name(name, parts))
+    const auto parts = parse_name(name);
+    if (!parts)
         return Error{ "'" + name + "': is no name of srisp's; those end in .srisp or hold .srisp?reference=…" };
     Recipe recipe;
-    recipe.source = parts.source;
-    recipe.path = parts.file;
-    if (exists(parts.file)) {
-        const auto text = read_text_file(parts.file, kMostRecipe);
+    recipe.source = parts->source;
+    recipe.path = parts->file;
+    if (exists(parts->file)) {
+        const auto text = read_text_file(parts->file, kMostRecipe);
         if (!text)
             return Error{ "recipe " + text.error().message };
-        std::string slot_id;
-        if (parse_stub(*text, slot_id))
-            return open_stub(parts, slot_id, config);
-        auto read = recipe_from_json(*text, parts.file, false);
+        if (const auto slot_id = parse_stub(*text))
+            return open_stub(*parts, *slot_id, config);
+        auto read = recipe_from_json(*text, parts->file, false);
         if (!read)
             return read.error();
         recipe = *read;
     }
-    if (const Status applied = apply_settings(recipe, parts, config); !applied)
+    if (const Status applied = apply_settings(recipe, *parts, config); !applied)
         return applied.error();
-    if (QueryName ours; parse_name(recipe.source, ours))
+    if (parse_name(recipe.source))
         return Error{ "source '" + recipe.source + "': a recipe cannot be made from a recipe" };
     auto source = open_file_source(recipe.source, config);
     if (!source)
         return source.error();
-    return ResultImage::open(recipe, std::move(*source), config);
+    return ResultImage::open(recipe, std::move(*source), config, process_state().results);
 }
 
-} // namespace srisp
+} // namespace srisp::plugin

@@ -6,7 +6,7 @@
 
 #include "open_name.h"
 
-namespace srisp {
+namespace srisp::plugin {
 
 namespace {
 
@@ -151,4 +151,4 @@ bool SrispInput::read_native_tile(int subimage, int miplevel, int x, int y, int,
     return read || fail(read.error().message);
 }
 
-} // namespace srisp
+} // namespace srisp::plugin

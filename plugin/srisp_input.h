@@ -9,7 +9,7 @@
 
 #include "result/result_image.h"
 
-namespace srisp {
+namespace srisp::plugin {
 
 /// The reader: OpenImageIO's calls turned into those of ResultImage, under ImageInput's own lock.
 ///
@@ -44,4 +44,4 @@ private:
     int m_subimage = -1, m_miplevel = -1;
 };
 
-} // namespace srisp
+} // namespace srisp::plugin

@@ -2,13 +2,57 @@
 #include "srisp_output.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <exception>
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+#include <srisp/metadata.h>
 
 #include "base/output_file.h"
-#include "job_actions.h"
+#include "hand_over.h"
 #include "open_name.h"
+#include "recipe/frame_pattern.h"
 
-namespace srisp {
+namespace srisp::plugin {
+
+namespace {
+
+/// Prints the parameters that the job would apply to the image in a slot, as one line of JSON on stdout: `{"image":
+/// name, …}`.
+Status print_parameters(const Recipe& job, const std::string& slot_id)
+{
+    auto image = ResultImage::open(job, open_slot_source(slot_id, job.name), {}, process_state().results);
+    if (!image)
+        return image.error();
+    const auto choice = (*image)->choice(0, 0);
+    if (!choice)
+        return choice.error();
+    const auto slot = process_state().slots.find(slot_id);
+    const std::string image_name = with_frame(job.name, slot ? slot->frame : "");
+    const std::string name = nlohmann::json(image_name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    // to_json gives an object; the name goes in front of its first key.
+    const std::string line = "{\"image\": " + name + ", " + to_json((*choice)->parameters, -1).substr(1) + "\n";
+    if (std::fputs(line.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
+        return Error{ "parameters: stdout cannot be written" };
+    return {};
+}
+
+/// Writes the parameters recorded in an image to the job's `file`, in whose last part `####` or `%04d` is replaced by
+/// the frame number.
+Status save_parameters(const Recipe& job, const OIIO::ImageSpec& spec, const std::string& frame)
+{
+    const auto parameters = recorded_parameters(spec, job.name);
+    if (!parameters)
+        return parameters.error();
+    // Folders are literal: they may well hold '#' or '%20d'.
+    std::filesystem::path file = job.file;
+    file.replace_filename(with_frame(file.filename().string(), frame));
+    const Status written = write_output_file(file.string(), to_json(*parameters) + "\n");
+    return written ? written : Status(Error{ "parameters " + written.error().message });
+}
+
+} // namespace
 
 int SrispOutput::supports(OIIO::string_view feature) const
 {
@@ -27,7 +71,7 @@ bool SrispOutput::fail(const std::string& message)
 
 Status SrispOutput::begin(const std::string& name)
 {
-    auto job = read_job(name, m_frame);
+    auto job = read_job(name);
     if (!job)
         return Error{ "'" + name + "': srisp files hold no pixels; write EXR or TIFF (no hand-over of srisptool's: " +
                       job.error().message + ")" };
@@ -35,7 +79,7 @@ Status SrispOutput::begin(const std::string& name)
     m_path = name;
     m_slot = std::make_shared<Slot>();
     m_slot->job = m_job.path;
-    m_slot->frame = m_frame;
+    m_slot->frame = parse_stub_name(name).frame;
     return {};
 }
 
@@ -87,12 +131,12 @@ bool SrispOutput::close()
 
 Status SrispOutput::finish()
 {
-    const std::string id = keep_slot(m_slot);
+    const std::string id = process_state().slots.keep(m_slot);
     if (m_job.action == Recipe::Action::print)
         if (const Status printed = print_parameters(m_job, id); !printed)
             return printed;
     if (m_job.action == Recipe::Action::save)
-        if (const Status saved = save_parameters(m_job, m_slot->subimages[0][0].spec, m_frame); !saved)
+        if (const Status saved = save_parameters(m_job, m_slot->subimages[0][0].spec, m_slot->frame); !saved)
             return saved;
     // A host renames what it wrote, so there must be a file even where nothing is read back.
     return write_output_file(m_path, stub_text(id));
@@ -130,4 +174,4 @@ bool SrispOutput::write_tile(int x, int y, int z, OIIO::TypeDesc format, const v
     return true;
 }
 
-} // namespace srisp
+} // namespace srisp::plugin

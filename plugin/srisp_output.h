@@ -6,10 +6,10 @@
 
 #include <OpenImageIO/imageio.h>
 
-#include "hand_over.h"
+#include "process_state.h"
 #include "recipe/recipe.h"
 
-namespace srisp {
+namespace srisp::plugin {
 
 /// The writer: keeps what a host writes in the memory of the process, for our reader or for the job's action (print or
 /// save parameters). Only names that belong to a job are taken.
@@ -32,9 +32,9 @@ private:
     Status begin(const std::string& name);
     Status finish();
 
-    std::string m_path, m_frame;
+    std::string m_path;
     Recipe m_job;
     std::shared_ptr<Slot> m_slot;
 };
 
-} // namespace srisp
+} // namespace srisp::plugin

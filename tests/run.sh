@@ -10,7 +10,12 @@ build=${SRISP_BUILD_DIR:-$source/build}
 jobs=$(nproc)
 
 sh "$source/tools/install-deps.sh"
-[ -f "$build/CMakeCache.txt" ] || cmake -G Ninja -S "$source" -B "$build" -DCMAKE_BUILD_TYPE=Release
+# A folder that is there is configured again, too: it may have been without the tests, or without LibTorch.
+if [ -f "$build/CMakeCache.txt" ]; then
+    cmake -S "$source" -B "$build" -DSRISP_BUILD_TESTS=ON
+else
+    cmake -G Ninja -S "$source" -B "$build" -DCMAKE_BUILD_TYPE=Release
+fi
 cmake --build "$build" --parallel "$jobs"
 build=$(cd "$build" && pwd)
 
@@ -19,11 +24,14 @@ export LC_ALL=C.UTF-8
 # LibTorch's threads sleep while they wait: tests run side by side.
 export OMP_WAIT_POLICY=passive
 status=0
+log=$build/Testing/Temporary/LastTest.log
+rm -f "$log"
 ctest --test-dir "$build" --parallel "$jobs" --timeout 900 --output-on-failure "$@" </dev/null || status=$?
 
 # Counts test cases, not programs: doctest's own summary, or a script's last line "N passed, N failed"; a program that
 # says neither is one test. A case that skips itself prints a line "SKIPPED what: why" and is not counted as passed.
-awk -v status="$status" '
+[ -f "$log" ] || log=/dev/null
+awk -v status="$status" -v no_trainer="$(sed -n 's/^SRISP_NO_TRAINER:INTERNAL=//p' "$build/CMakeCache.txt")" '
     /^(Unable to find executable|Failed test dependencies)/ { failed++; not_run = 1 }
     / Testing: / { counted = 0; failed_here = 0; self_skipped = 0 }
     /^SKIPPED /  { lines[++skipped] = $0; self_skipped++ }
@@ -39,7 +47,8 @@ awk -v status="$status" '
     /^Test Failed\.$/ { failed += failed_here ? failed_here : 1 }
     END {
         for (i = 1; i <= skipped; i++) print lines[i]
+        if (no_trainer) print "NOT BUILT, NOT TESTED srisptrain, srispeval: " no_trainer
         if (status && !failed) failed = 1
         printf "%d passed, %d failed, %d skipped\n", passed, failed, skipped
-    }' "$build/Testing/Temporary/LastTest.log"
+    }' "$log"
 exit "$status"

@@ -20,10 +20,8 @@ done
 
 sh "$source/tools/install-deps.sh" build
 [ -f "$build/CMakeCache.txt" ] || cmake -G Ninja -S "$source" -B "$build" -DCMAKE_BUILD_TYPE=Release
-# Not the tests: they take longer than all the rest.
-targets=all
-[ ! -f "$build/build.ninja" ] || targets="lib/all plugin/all tools/all"
-cmake --build "$build" --parallel "$(nproc)" --target $targets
+# What `cmake --install` needs, without the tests and the trainer: they take longer than all the rest.
+cmake --build "$build" --parallel "$(nproc)" --target installables
 
 srisptool=$build/bin/srisptool
 mkdir -p "$out"

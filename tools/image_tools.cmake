@@ -14,7 +14,7 @@ function(srisp_image_tool name)
 endfunction()
 
 # No OpenImageIO: it would cost its start-up time twice.
-srisp_image_tool(srisptool srisp_base)
+srisp_image_tool(srisptool srisp_recipe)
 srisp_man_page(srisptool --srisp-help)
 
 # The same program under oiiotool's name, for those who put its folder in front of PATH.

@@ -11,10 +11,10 @@ packages="
     doctest-dev libcli11-dev libhwy-dev libimath-dev liblcms2-dev libopencolorio-dev libopenexr-dev libopenimageio-dev
     libraw-dev libtiff-dev
     libxxhash-dev nlohmann-json3-dev
-    openimageio-tools fonts-dejavu-core
+    openimageio-tools python3-openimageio python3-numpy fonts-dejavu-core
 "
 test_packages="clang-format-14 dcraw libgl1-mesa-dri libimage-exiftool-perl libraw-bin make man-db mount opencolorio-tools
-    python3 python3-numpy python3-openimageio python3-pyopencolorio xauth xvfb"
+    python3-pyopencolorio xauth xvfb"
 trainer_packages="libgloo-dev libopenblas0-openmp libtorch-dev"
 case "$#${1:-}" in
     0) packages="$packages $trainer_packages $test_packages" ;;

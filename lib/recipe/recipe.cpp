@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recipe/recipe.h"
 
-#include <algorithm>
 #include <filesystem>
-#include <functional>
-#include <map>
+#include <type_traits>
 
 #include <nlohmann/json.hpp>
 
 #include "base/file_bytes.h"
 #include "base/near_names.h"
-#include "parameters/printed_parameters.h"
+#include "recipe/option_table.h"
+#include "recipe/reference_pattern.h"
 
 namespace srisp {
 
@@ -20,222 +19,125 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostParameters = 1 << 20; // bytes; 700 are usual
+const char kFormat[] = "srisp-recipe-1";
 
-std::string resolved(const std::string& path, const fs::path& folder)
-{
-    return path.empty() || folder.empty() ? path : (folder / path).string();
-}
-
-/// Each part of a ';' list by itself; a file whose own name holds ';' is left whole.
-std::string resolved_list(const std::string& list, const fs::path& folder)
-{
-    std::error_code ignored;
-    const std::string whole = resolved(list, folder);
-    if (fs::exists(whole, ignored))
-        return whole;
-    std::string result;
-    for (std::size_t start = 0; start <= list.size();) {
-        const std::size_t end = std::min(list.find(';', start), list.size());
-        result += (start ? ";" : "") + resolved(list.substr(start, end - start), folder);
-        start = end + 1;
-    }
-    return result;
-}
-
-Status read_parameters(Recipe& recipe, const std::string& path)
-{
-    auto text = read_text_file(path, kMostParameters);
-    if (!text)
-        return Error{ "parameters " + text.error().message };
-    recipe.parameters = without_image_name(*text);
-    recipe.parameters_where = "parameters '" + path + "'";
-    return {};
-}
-
-Status set_direction(Recipe& recipe, const std::string& name)
-{
-    if (name != "reverse" && name != "forward")
-        return Error{ "unknown direction '" + name + "'" + near_names(name, { "reverse", "forward" }) };
-    recipe.direction = name == "reverse" ? Direction::reverse : Direction::forward;
-    return {};
-}
-
-Status set_input(Recipe& recipe, const std::string& name)
-{
-    auto input = input_encoding_from_name(name);
-    if (!input)
-        return input.error();
-    recipe.input = *input;
-    return {};
-}
-
-Status set_precision(Recipe& recipe, const std::string& name)
-{
-    const auto precision = precision_from_name(name);
-    if (!precision)
-        return precision.error();
-    recipe.precision = *precision;
-    return {};
-}
-
-Status set_action(Recipe& recipe, const std::string& name)
-{
-    const std::map<std::string, Recipe::Action> actions = { { "apply", Recipe::Action::apply },
-                                                            { "print", Recipe::Action::print },
-                                                            { "save", Recipe::Action::save } };
-    const auto found = actions.find(name);
-    if (found == actions.end())
-        return Error{ "unknown action '" + name + "'" + near_names(name, { "apply", "print", "save" }) };
-    recipe.action = found->second;
-    return {};
-}
-
-Status set_reference(Recipe& recipe, const std::string& pattern)
-{
-    recipe.reference = pattern;
-    return {};
-}
-
-Status set_model(Recipe& recipe, const std::string& name)
-{
-    recipe.model = name;
-    return {};
-}
-
-Status set_seed(Recipe& recipe, const std::string& digits)
-{
-    if (digits.empty() || digits.size() > 19 || digits.find_first_not_of("0123456789") != std::string::npos)
-        return Error{ "seed '" + digits + "' is not a whole number from 0" };
-    recipe.seed = std::stoull(digits);
-    return {};
-}
-
-Status set_lazy(Recipe& recipe, const std::string& flag)
-{
-    if (flag != "0" && flag != "1")
-        return Error{ "lazy '" + flag + "' is neither 0 nor 1" };
-    recipe.lazy = flag == "1";
-    return {};
-}
-
-/// What a query or a hint may set.
-struct Setting {
-    const char* key;
-    Status (*set)(Recipe& recipe, const std::string& value);
+/// The file that an option stands in; empty for a text that a user typed.
+struct Place {
+    std::string file;
+    std::string folder() const { return fs::path(file).parent_path().string(); }
 };
-const Setting kSettings[] = { { "reference", set_reference }, { "model", set_model },
-                              { "params", read_parameters },  { "input", set_input },
-                              { "precision", set_precision }, { "seed", set_seed },
-                              { "direction", set_direction }, { "lazy", set_lazy } };
 
-/// One key of a recipe: how its value is taken.
-using Taker = std::function<Status(const json& value)>;
-
-Taker take_text(std::function<Status(const std::string&)> use)
+std::string resolved(const std::string& path, const Place& place)
 {
-    return [use](const json& value) -> Status {
-        return value.is_string() ? use(value.get<std::string>()) : Status(Error{ "must be a text" });
-    };
+    return path.empty() || place.folder().empty() ? path : (fs::path(place.folder()) / path).string();
 }
 
-Taker take_text(std::string& target)
+Status take(std::string& target, const Option& option, const json& value, const Place& place)
 {
-    return take_text([&target](const std::string& text) {
-        target = text;
-        return Status();
-    });
+    if (!value.is_string())
+        return Error{ "must be a text" };
+    target = value.get<std::string>();
+    // A model is a name unless it looks like a path [Model::load].
+    const bool is_path = option.type == OptionType::path ||
+                         (option.type == OptionType::model &&
+                          (target.find('/') != std::string::npos || fs::path(target).extension() == ".safetensors"));
+    if (is_path)
+        target = resolved(target, place);
+    return {};
 }
 
-Taker take_flag(bool& target)
+/// A text may be a list; in an array each path stands by itself.
+Status take(std::vector<std::string>& references, const Option&, const json& value, const Place& place)
 {
-    return [&target](const json& value) -> Status {
-        if (!value.is_boolean())
-            return Error{ "must be true or false" };
-        target = value.get<bool>();
-        return {};
-    };
-}
-
-Taker take_seed(std::uint64_t& target)
-{
-    return [&target](const json& value) -> Status {
-        if (!value.is_number_unsigned())
-            return Error{ "must be a whole number from 0" };
-        target = value.get<std::uint64_t>();
-        return {};
-    };
-}
-
-Taker take_reference(std::string& target, const fs::path& folder)
-{
-    return [&target, folder](const json& value) -> Status {
-        if (value.is_string()) {
-            target = resolved_list(value.get<std::string>(), folder);
-            return {};
-        }
-        if (!value.is_array())
-            return Error{ "must be a path or a list of paths" };
-        target.clear();
-        for (const json& path : value) {
+    std::vector<std::string> items;
+    if (value.is_string()) {
+        auto list = split_references(value.get<std::string>(), place.folder());
+        if (!list)
+            return list.error();
+        items = std::move(*list);
+    } else {
+        for (const json& path : value.is_array() ? value : json::array({ value })) {
             if (!path.is_string())
                 return Error{ "must be a path or a list of paths" };
-            target += (target.empty() ? "" : ";") + resolved(path.get<std::string>(), folder);
+            items.push_back(path.get<std::string>());
         }
-        return {};
-    };
-}
-
-Taker take_parameters(Recipe& recipe, const fs::path& folder)
-{
-    return [&recipe, folder](const json& value) -> Status {
-        if (value.is_string())
-            return read_parameters(recipe, resolved(value.get<std::string>(), folder));
-        recipe.parameters = value.dump();
-        recipe.parameters_where = "parameters of '" + recipe.path + "'";
-        return value.is_object() ? Status() : Status(Error{ "must be an object or a path" });
-    };
-}
-
-/// A model is a name unless it looks like a path [Model::load].
-std::string resolved_model(const std::string& model, const fs::path& folder)
-{
-    return model.find('/') == std::string::npos && fs::path(model).extension() != ".safetensors"
-               ? model
-               : resolved(model, folder);
-}
-
-std::map<std::string, Taker> takers(Recipe& recipe, const fs::path& folder, bool is_job)
-{
-    std::map<std::string, Taker> keys = {
-        { "format", take_text([](const std::string& format) {
-              return format == "srisp-recipe-1" ? Status() : Status(Error{ "'" + format + "' is not srisp-recipe-1" });
-          }) },
-        { "direction", take_text([&](const std::string& name) { return set_direction(recipe, name); }) },
-        { "reference", take_reference(recipe.reference, folder) },
-        { "model", take_text([&recipe, folder](const std::string& model) {
-              recipe.model = resolved_model(model, folder);
-              return Status();
-          }) },
-        { "parameters", take_parameters(recipe, folder) },
-        { "input", take_text([&](const std::string& name) { return set_input(recipe, name); }) },
-        { "precision", take_text([&](const std::string& name) { return set_precision(recipe, name); }) },
-        { "seed", take_seed(recipe.seed) },
-        { "hold", take_flag(recipe.hold) },
-        { "progress", take_flag(recipe.progress) },
-        { "notes", take_flag(recipe.notes) },
-        { "command", take_text(recipe.command) },
-    };
-    if (is_job) {
-        keys["action"] = take_text([&](const std::string& name) { return set_action(recipe, name); });
-        keys["file"] = take_text(recipe.file);
-        keys["name"] = take_text(recipe.name);
-    } else {
-        keys["source"] = take_text([&recipe, folder](const std::string& path) {
-            recipe.source = resolved(path, folder);
-            return Status();
-        });
     }
-    return keys;
+    references.clear();
+    for (const std::string& item : items)
+        references.push_back(resolved_reference(item, place.folder()));
+    return {};
+}
+
+Status take(std::optional<Parameters>& target, const Option&, const json& value, const Place& place)
+{
+    std::string text = value.dump(), where = place.file;
+    if (value.is_string()) {
+        where = resolved(value.get<std::string>(), place);
+        auto read = read_text_file(where, kMostParameters);
+        if (!read)
+            return Error{ "parameters " + read.error().message };
+        text = std::move(*read);
+    } else if (!value.is_object()) {
+        return Error{ "must be an object or a path" };
+    }
+    auto parameters = parameters_from_json(text, "'" + where + "'");
+    if (!parameters)
+        return parameters.error();
+    target = std::move(*parameters);
+    return {};
+}
+
+Status take(bool& target, const Option&, const json& value, const Place&)
+{
+    if (!value.is_boolean())
+        return Error{ "must be true or false" };
+    target = value.get<bool>();
+    return {};
+}
+
+Status take(std::uint64_t& target, const Option&, const json& value, const Place&)
+{
+    if (!value.is_number_unsigned())
+        return Error{ "must be a whole number from 0 to " + std::to_string(UINT64_MAX) };
+    target = value.get<std::uint64_t>();
+    return {};
+}
+
+template<class Choice, class = std::enable_if_t<std::is_enum_v<Choice>>>
+Status take(Choice& target, const Option& option, const json& value, const Place&)
+{
+    if (!value.is_string())
+        return Error{ "must be a text" };
+    const auto index = choice_index(option, value.get<std::string>());
+    if (!index)
+        return index.error();
+    target = static_cast<Choice>(*index);
+    return {};
+}
+
+Status set_value(Recipe& recipe, const Option& option, const json& value, const Place& place)
+{
+    return std::visit([&](auto member) { return take(recipe.*member, option, value, place); }, option.target);
+}
+
+Status set_text(Recipe& recipe, Door door, const std::string& key, const std::string& text)
+{
+    const Option* const option = find_option(door, key);
+    if (!option)
+        return Error{ "unknown option '" + key + "'" + near_names(key, option_keys(door)) };
+    const auto value = option_value(*option, text);
+    return value ? set_value(recipe, *option, *value, {}) : value.error();
+}
+
+Status check_format(const json& object)
+{
+    if (!object.contains("format"))
+        return Error{ "has no 'format'; this program reads " + std::string(kFormat) };
+    const json& format = object["format"];
+    if (!format.is_string())
+        return Error{ "'format': must be a text" };
+    return format == kFormat ? Status()
+                             : Error{ "'format': '" + format.get<std::string>() + "' is not " + std::string(kFormat) };
 }
 
 } // namespace
@@ -243,24 +145,26 @@ std::map<std::string, Taker> takers(Recipe& recipe, const fs::path& folder, bool
 Expected<Recipe> recipe_from_json(const std::string& text, const std::string& path, bool is_job)
 {
     const std::string where = (is_job ? "job '" : "recipe '") + path + "'";
+    const Door door = is_job ? kJob : kRecipe;
     const json object = json::parse(text, nullptr, false);
     if (!object.is_object())
         return Error{ where + ": is not a JSON object" };
     Recipe recipe;
     recipe.path = path;
-    const auto keys = takers(recipe, fs::path(path).parent_path(), is_job);
-    std::vector<std::string> names;
-    for (const auto& key : keys)
-        names.push_back(key.first);
     for (const auto& [key, value] : object.items()) {
-        const auto taker = keys.find(key);
-        if (taker == keys.end())
-            return Error{ where + ": unknown key '" + key + "'" + near_names(key, names) };
-        if (const Status taken = taker->second(value); !taken)
+        if (key == "format")
+            continue;
+        const Option* const option = find_option(door, key);
+        if (!option) {
+            std::vector<std::string> known = option_keys(door);
+            known.push_back("format");
+            return Error{ where + ": unknown key '" + key + "'" + near_names(key, known) };
+        }
+        if (const Status taken = set_value(recipe, *option, value, { path }); !taken)
             return Error{ where + ": '" + key + "': " + taken.error().message };
     }
-    if (!object.contains("format"))
-        return Error{ where + ": has no 'format'; this program reads srisp-recipe-1" };
+    if (const Status format = check_format(object); !format)
+        return Error{ where + ": " + format.error().message };
     if (!is_job && recipe.source.empty())
         return Error{ where + ": has no 'source'" };
     return recipe;
@@ -268,21 +172,17 @@ Expected<Recipe> recipe_from_json(const std::string& text, const std::string& pa
 
 Status set_by_text(Recipe& recipe, const std::string& key, const std::string& value)
 {
-    for (const Setting& setting : kSettings)
-        if (key == setting.key)
-            return setting.set(recipe, value);
-    return Error{ "unknown option '" + key + "'" + near_names(key, settable_keys()) };
+    return set_text(recipe, kQuery, key, value);
 }
 
-const std::vector<std::string>& settable_keys()
+Status set_option(Options& options, const std::string& key, const std::string& value)
 {
-    static const std::vector<std::string> keys = [] {
-        std::vector<std::string> names;
-        for (const Setting& setting : kSettings)
-            names.push_back(setting.key);
-        return names;
-    }();
-    return keys;
+    Recipe recipe;
+    static_cast<Options&>(recipe) = options;
+    const Status set = set_text(recipe, kProgram, key, value);
+    if (set)
+        options = recipe;
+    return set;
 }
 
 Status check_complete(const Recipe& recipe, const std::string& where)
@@ -290,7 +190,7 @@ Status check_complete(const Recipe& recipe, const std::string& where)
     if (recipe.action == Recipe::Action::save && recipe.file.empty())
         return Error{ where + ": has no 'file' to save parameters to" };
     const bool selects = recipe.direction == Direction::reverse && recipe.action != Recipe::Action::save;
-    if (selects && recipe.reference.empty() && recipe.parameters.empty())
+    if (selects && recipe.references.empty() && !recipe.parameters)
         return Error{ where + ": names no reference (a RAW file) and no parameters" };
     return {};
 }

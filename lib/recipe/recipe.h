@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -11,18 +10,13 @@
 namespace srisp {
 
 /// What is to be done with one image: the contents of a `.srisp` file, of a query, or of a job that srisptool wrote.
-struct Recipe {
+/// Which of it each of these may say: option_table.h.
+struct Recipe : Options {
     enum class Action { apply, print, save };
 
     std::string source; ///< path of the photo; empty in a job, whose pixels come by hand-over
     Direction direction = Direction::reverse;
-    std::string reference;  ///< path, folder, glob or ';' list; may be empty where parameters are given
-    std::string model;      ///< name or path; empty: the one that the parameters name, else "default"
-    std::string parameters; ///< JSON text; empty: to be selected (reverse), or those recorded in the image (forward)
-    std::string parameters_where; ///< what that text is called in messages
-    InputEncoding input = InputEncoding::automatic;
-    Precision precision = Precision::float32;
-    std::uint64_t seed = 0;
+    std::vector<std::string> references; ///< files, folders and globs; may be empty where parameters are given
     bool lazy = false;     ///< opening reads headers only; metadata lacks parameters that must be selected
     bool hold = false;     ///< the first image's parameters hold for all later ones of this process
     bool progress = false; ///< on stderr, after two seconds
@@ -35,15 +29,12 @@ struct Recipe {
 };
 
 /// Reads a recipe (`is_job` false) or job from its JSON text. `path` is where it lies: paths in it are relative to its
-/// folder. Errors: not JSON, unknown keys or values (the near ones listed), wrong types, nothing to choose parameters
-/// by.
+/// folder. Errors: not JSON, unknown keys or values (the near ones listed), wrong types, parameters that cannot be
+/// read.
 Expected<Recipe> recipe_from_json(const std::string& text, const std::string& path, bool is_job);
 
-/// Sets one value from a text: `key` is one of settable_keys(). Paths are relative to the working folder.
+/// Sets one value from a text, as a query or a configuration hint says it. Paths are relative to the working folder.
 Status set_by_text(Recipe& recipe, const std::string& key, const std::string& value);
-
-/// reference, model, params, input, precision, seed, direction, lazy: what a query or a configuration hint may say.
-const std::vector<std::string>& settable_keys();
 
 /// Whether parameters can be had at all. `where` names the recipe in the message.
 Status check_complete(const Recipe& recipe, const std::string& where);

@@ -9,8 +9,10 @@
 
 #include "base/content_hash.h"
 #include "base/file_bytes.h"
-#include "reference/camera_files.h"
+#include "base/seeded_hash.h"
+#include "recipe/reference_pattern.h"
 #include "reference/dng_levels.h"
+#include "reference/file_type.h"
 #include "reference/float_dng.h"
 #include "reference/libraw_decoder.h"
 #include "reference/linear_image.h"
@@ -119,6 +121,26 @@ Expected<std::shared_ptr<const Reference>> load_reference(const std::string& pat
     } catch (const std::exception& failed) {
         return fail(failed.what());
     }
+}
+
+Expected<std::string> choose_reference(const std::vector<std::string>& patterns, std::uint64_t seed,
+                                       const std::string& photo_name)
+{
+    try {
+        const auto files = expand_references(patterns);
+        if (!files)
+            return files.error();
+        const std::string name = std::filesystem::path(photo_name).filename().string();
+        return (*files)[std::size_t(seeded_hash(seed, name) % files->size())];
+    } catch (const std::exception& failed) {
+        return Error{ std::string("choosing a reference: ") + failed.what() };
+    }
+}
+
+Expected<std::string> choose_reference(const std::string& pattern, std::uint64_t seed, const std::string& photo_name)
+{
+    const auto items = split_references(pattern);
+    return items ? choose_reference(*items, seed, photo_name) : items.error();
 }
 
 } // namespace srisp

@@ -2,7 +2,6 @@
 #include "result/chooser.h"
 
 #include <filesystem>
-#include <map>
 
 #include <srisp/metadata.h>
 #include <srisp/select.h>
@@ -14,37 +13,6 @@ namespace srisp {
 
 namespace {
 
-constexpr std::size_t kMostChoices = 64;
-constexpr std::size_t kMostModels = 8;
-
-// Never destroyed: other threads of the host may still read while statics end.
-RecentlyKept<ChoicePtr>& choices()
-{
-    static auto& kept = *new RecentlyKept<ChoicePtr>(kMostChoices);
-    return kept;
-}
-
-/// By recipe and subimage: the first choice of a recipe that says `hold`.
-RecentlyKept<ChoicePtr>& held_choices()
-{
-    static auto& kept = *new RecentlyKept<ChoicePtr>(1 << 20);
-    return kept;
-}
-
-Expected<std::shared_ptr<const Model>> load_model_cached(const std::string& name)
-{
-    static auto& models = *new RecentlyKept<std::shared_ptr<const Model>>(kMostModels);
-    static auto& paths = *new RecentlyKept<std::shared_ptr<const std::string>>(kMostModels);
-    if (const auto path = paths.find(name))
-        if (const auto model = models.find(file_state(*path)))
-            return model;
-    auto model = Model::load(name);
-    if (!model)
-        return model;
-    paths.keep(name, std::make_shared<const std::string>((*model)->path()));
-    return models.keep(file_state((*model)->path()), *model);
-}
-
 std::string held_key(const Recipe& recipe, int subimage)
 {
     return recipe.path + "\n" + std::to_string(subimage);
@@ -52,32 +20,29 @@ std::string held_key(const Recipe& recipe, int subimage)
 
 } // namespace
 
-Expected<Chooser> Chooser::create(const Recipe& recipe, const std::string& photo_name)
+Expected<Chooser> Chooser::create(const Recipe& recipe, const std::string& photo_name, KeptResults& kept)
 {
-    Chooser chooser;
+    Chooser chooser(kept);
     chooser.m_recipe = recipe;
-    if (!recipe.parameters.empty()) {
-        auto given = parameters_from_json(recipe.parameters, recipe.parameters_where);
-        if (!given)
-            return given.error();
-        chooser.m_given = *given;
-    }
+    const std::optional<Parameters>& given = recipe.parameters;
     std::string model = recipe.model;
-    if (model.empty() && chooser.m_given)
-        model = chooser.m_given->model_name;
+    if (model.empty() && given)
+        model = given->model_name;
     if (model.empty() && recipe.direction == Direction::reverse)
         model = "default";
+    if (model.empty() && given)
+        return Error{ "the parameters name no model, so it must be given (model=)" };
     if (!model.empty()) {
-        auto loaded = load_model_cached(model);
+        auto loaded = kept.load_model(model);
         if (!loaded)
             return loaded.error();
         chooser.m_model = *loaded;
     }
-    if (chooser.m_given)
-        if (const Status fits = check_parameters(*chooser.m_given, *chooser.m_model); !fits)
+    if (given)
+        if (const Status fits = check_parameters(*given, *chooser.m_model); !fits)
             return fits.error();
-    if (!recipe.reference.empty() && recipe.direction == Direction::reverse) {
-        auto reference = choose_reference(recipe.reference, recipe.seed, photo_name);
+    if (!recipe.references.empty() && recipe.direction == Direction::reverse) {
+        auto reference = choose_reference(recipe.references, recipe.seed, photo_name);
         if (!reference)
             return reference.error();
         chooser.m_reference = *reference;
@@ -91,23 +56,25 @@ Expected<Chooser> Chooser::create(const Recipe& recipe, const std::string& photo
 std::string Chooser::key(const PixelSource& source, int subimage) const
 {
     return source.key() + "\n" + std::to_string(subimage) + "\n" + std::to_string(static_cast<int>(m_recipe.input)) +
-           "\n" + m_model->hash() + "\n" + m_recipe.parameters + "\n" + file_state(m_reference);
+           "\n" + m_model->hash() + "\n" + (m_recipe.parameters ? to_json(*m_recipe.parameters, -1) : "") + "\n" +
+           file_state(m_reference);
 }
 
 Expected<ChoicePtr> Chooser::known(const PixelSource& source, int subimage, const OIIO::ImageSpec& stored) const
 {
     if (m_recipe.direction == Direction::reverse) {
-        if (m_given && m_reference.empty())
-            return ChoicePtr(std::make_shared<Choice>(Choice{ m_model, *m_given, nullptr, {} }));
-        const ChoicePtr held = m_recipe.hold ? held_choices().find(held_key(m_recipe, subimage)) : nullptr;
-        return held ? held : choices().find(key(source, subimage));
+        if (m_recipe.parameters && m_reference.empty())
+            return ChoicePtr(std::make_shared<Choice>(Choice{ m_model, *m_recipe.parameters, nullptr, {} }));
+        const ChoicePtr held = m_recipe.hold ? m_kept->held_choices.find(held_key(m_recipe, subimage)) : nullptr;
+        return held ? held : m_kept->choices.find(key(source, subimage));
     }
-    if (!m_given && !is_unprocessed(stored))
+    if (!m_recipe.parameters && !is_unprocessed(stored))
         return Error{ source.name() + ": is no RAW-like image of srisp's, so it records no parameters; give params=" };
-    auto parameters = m_given ? Expected<Parameters>(*m_given) : recorded_parameters(stored, source.name());
+    auto parameters =
+        m_recipe.parameters ? Expected<Parameters>(*m_recipe.parameters) : recorded_parameters(stored, source.name());
     if (!parameters)
         return parameters.error();
-    auto model = m_model ? Expected<std::shared_ptr<const Model>>(m_model) : load_model_cached(parameters->model_name);
+    auto model = m_model ? Expected<std::shared_ptr<const Model>>(m_model) : m_kept->load_model(parameters->model_name);
     if (!model)
         return model.error();
     if (const Status fits = check_parameters(*parameters, **model); !fits)
@@ -124,9 +91,9 @@ Expected<ChoicePtr> Chooser::choose(PixelSource& source, int subimage, const OII
     auto choice = select_new(source, subimage, stored, converter, threads);
     if (!choice)
         return choice;
-    ChoicePtr kept = choices().keep(key(source, subimage), *choice);
+    ChoicePtr kept = m_kept->choices.keep(key(source, subimage), *choice);
     if (m_recipe.hold)
-        kept = held_choices().keep(held_key(m_recipe, subimage), kept);
+        kept = m_kept->held_choices.keep(held_key(m_recipe, subimage), kept);
     return kept;
 }
 
@@ -137,8 +104,8 @@ Expected<ChoicePtr> Chooser::select_new(PixelSource& source, int subimage, const
     if (!reference)
         return reference.error();
     auto choice = std::make_shared<Choice>(Choice{ m_model, {}, *reference, (*reference)->notes });
-    if (m_given) {
-        choice->parameters = *m_given;
+    if (m_recipe.parameters) {
+        choice->parameters = *m_recipe.parameters;
         return ChoicePtr(choice);
     }
     PhotoReader photo(source, subimage, 0, stored, converter, threads);

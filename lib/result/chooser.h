@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "photo/photo_converter.h"
 #include "photo/pixel_source.h"
 #include "recipe/recipe.h"
+#include "result/kept_results.h"
 
 namespace srisp {
 
@@ -25,14 +25,13 @@ struct Choice {
 };
 using ChoicePtr = std::shared_ptr<const Choice>;
 
-/// Finds the parameters that a recipe asks for. What was selected is kept for the whole process (a bounded number; key:
-/// state of the photo and the reference files, subimage, model's hash, settings), since hosts open a file several
-/// times.
+/// Finds the parameters that a recipe asks for. What was selected is kept (a bounded number; key: state of the photo
+/// and the reference files, subimage, model's hash, settings), since hosts open a file several times.
 class Chooser {
 public:
     /// Finds what can be wrong without decoding anything: model, parameters, reference's path. `photo_name`: with the
     /// seed it decides which of several references is taken.
-    static Expected<Chooser> create(const Recipe& recipe, const std::string& photo_name);
+    static Expected<Chooser> create(const Recipe& recipe, const std::string& photo_name, KeptResults& kept);
 
     /// The parameters if they are known without decoding anything: given, held, selected before, or recorded in the
     /// image (forward). Null: they must be selected. `stored`: spec of MIP level 0.
@@ -43,14 +42,15 @@ public:
                                const PhotoConverter& converter, int threads) const;
 
 private:
+    explicit Chooser(KeptResults& kept) : m_kept(&kept) {}
     std::string key(const PixelSource& source, int subimage) const;
     Expected<ChoicePtr> select_new(PixelSource& source, int subimage, const OIIO::ImageSpec& stored,
                                    const PhotoConverter& converter, int threads) const;
 
+    KeptResults* m_kept;
     Recipe m_recipe;
     std::shared_ptr<const Model> m_model; ///< null: the image's record says which (forward)
-    std::optional<Parameters> m_given;
-    std::string m_reference; ///< path of the chosen file; may be empty
+    std::string m_reference;              ///< path of the chosen file; may be empty
 };
 
 } // namespace srisp

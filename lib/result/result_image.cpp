@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "result/result_image.h"
 
-#include <cstdio>
 #include <filesystem>
-#include <mutex>
-#include <set>
 
 #include <OpenImageIO/strutil.h>
 #include <srisp/metadata.h>
@@ -12,22 +9,6 @@
 namespace srisp {
 
 namespace {
-
-/// Prints `srisp: note: image: text` on stderr, each once per process (hosts open a file several times per read).
-void print_notes(const std::string& image, const std::vector<std::string>& notes)
-{
-    constexpr std::size_t kMostRemembered = 10000;
-    static std::mutex& mutex = *new std::mutex;
-    static std::set<std::string>& printed = *new std::set<std::string>;
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (printed.size() > kMostRemembered)
-        printed.clear();
-    for (const std::string& note : notes) {
-        const std::string line = "srisp: note: " + image + ": " + note + "\n";
-        if (printed.insert(line).second)
-            std::fputs(line.c_str(), stderr);
-    }
-}
 
 /// A forward pass takes values as they are.
 InputEncoding encoding_of(const Recipe& recipe)
@@ -38,15 +19,15 @@ InputEncoding encoding_of(const Recipe& recipe)
 } // namespace
 
 Expected<std::unique_ptr<ResultImage>> ResultImage::open(const Recipe& recipe, std::unique_ptr<PixelSource> source,
-                                                         const OIIO::ImageSpec& config)
+                                                         const OIIO::ImageSpec& config, KeptResults& kept)
 {
     const std::string photo = recipe.source.empty() ? recipe.name : recipe.source;
-    auto chooser = Chooser::create(recipe, std::filesystem::path(photo).filename().string());
+    auto chooser = Chooser::create(recipe, std::filesystem::path(photo).filename().string(), kept);
     if (!chooser)
         return chooser.error();
     const bool associate = config.get_int_attribute("oiio:UnassociatedAlpha") == 0;
     auto image =
-        std::unique_ptr<ResultImage>(new ResultImage(recipe, std::move(source), std::move(*chooser), associate));
+        std::unique_ptr<ResultImage>(new ResultImage(recipe, std::move(source), std::move(*chooser), associate, kept));
     const auto first = image->existing_level(0, 0);
     if (!first)
         return first.error();
@@ -115,8 +96,8 @@ void ResultImage::tell(const Level& level, const std::vector<std::string>& notes
 {
     if (!m_recipe.notes)
         return;
-    print_notes(m_source->name(), level.converter->notes());
-    print_notes(m_source->name(), notes);
+    m_kept.print_notes(m_source->name(), level.converter->notes());
+    m_kept.print_notes(m_source->name(), notes);
 }
 
 Expected<const OIIO::ImageSpec*> ResultImage::header(int subimage, int miplevel)

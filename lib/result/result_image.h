@@ -17,9 +17,10 @@ namespace srisp {
 /// for. Not for use by several threads at a time.
 class ResultImage {
 public:
-    /// Reads headers only; finds what can be wrong without decoding the photo or the reference.
+    /// `kept` outlives the object. Reads headers only; finds what can be wrong without decoding the photo or the
+    /// reference.
     static Expected<std::unique_ptr<ResultImage>> open(const Recipe& recipe, std::unique_ptr<PixelSource> source,
-                                                       const OIIO::ImageSpec& config);
+                                                       const OIIO::ImageSpec& config, KeptResults& kept);
 
     /// Whether parameters are to be selected as late as possible.
     bool is_lazy() const { return m_recipe.lazy; }
@@ -47,8 +48,10 @@ private:
         std::shared_ptr<BandReader> bands; ///< null until pixels are read
     };
 
-    ResultImage(const Recipe& recipe, std::unique_ptr<PixelSource> source, Chooser chooser, bool associate)
-        : m_recipe(recipe), m_source(std::move(source)), m_chooser(std::move(chooser)), m_associate(associate)
+    ResultImage(const Recipe& recipe, std::unique_ptr<PixelSource> source, Chooser chooser, bool associate,
+                KeptResults& kept)
+        : m_recipe(recipe), m_source(std::move(source)), m_chooser(std::move(chooser)), m_associate(associate),
+          m_kept(kept)
     {
     }
 
@@ -64,6 +67,7 @@ private:
     std::unique_ptr<PixelSource> m_source;
     Chooser m_chooser;
     bool m_associate;
+    KeptResults& m_kept;
     std::map<std::pair<int, int>, Level> m_levels;
     std::map<int, std::shared_ptr<const Applier>> m_appliers; ///< by subimage
 };

@@ -6,7 +6,6 @@
 #include <srisp/model.h>
 
 #include "model/model_data.h"
-#include "parameters/parameter_checks.h"
 #include "select/selection.h"
 
 namespace srisp {
@@ -34,10 +33,10 @@ Expected<Parameters> select(const Model& model, const Thumbnail& source, const T
         return status.error();
     try {
         Parameters parameters = select_parameters(model_data(model), source, reference, nullptr);
-        if (Status status = check_values(parameters, "selecting parameters"); !status)
-            return status.error();
         parameters.model_name = model.name();
         parameters.model_hash = model.hash();
+        if (Status status = check_parameters(parameters, model); !status)
+            return Error{ "selecting " + status.error().message };
         return parameters;
     } catch (const std::exception& error) {
         return Error{ std::string("selecting parameters: ") + error.what() };

@@ -37,6 +37,18 @@ for name in "two words" "50%" "50%20d" "x#y" "x##y" "a@b" "a&b" "k=v" "{1}" "{TO
         echo "the stock oiiotool cannot write to a folder '$name'"
     fi
 done
+# A name that exists is itself, also in a list: twenty seeds find every file, and none else.
+mkdir odd
+for name in "a;b.dng" "b.dng" "x*.dng" "y[1].dng"; do cp "$reference" "odd/$name"; done
+for seed in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+    $tool "$photo" "--srisp-params:seed=$seed" "odd/a;b.dng;odd/b.dng;odd/x*.dng;odd/y[1].dng"
+done | grep -o '"reference": {"name": "[^"]*"' | sort -u >taken.txt
+printf '"reference": {"name": "%s"\n' "a;b.dng" "b.dng" "x*.dng" "y[1].dng" >expected.txt
+check "references with odd names beside others" cmp taken.txt expected.txt
+check "a missing one among them is told" says 1 "reference 'odd/c.dng' does not exist" \
+    "$tool" "$photo" --srisp-params "odd/a;b.dng;odd/c.dng"
+(cd odd && $tool "$photo" --srisp-params "*.dng" >../globbed.txt)
+check "a glob finds them, too" grep -q '"reference": {"name": "[abxy]' globbed.txt
 (cd folder && mkdir "here #1 {x}" && cd "here #1 {x}" && cp "$photo" p.jpg && cp "$reference" . &&
     $tool p.jpg --srisp-unprocess reference.dng --srisp-save-params p.json --eraseattrib ".*" -o out.sgi && mv out.sgi p.json ..)
 check "a working folder with such a name" cmp -i 512 folder/out.sgi plain.sgi

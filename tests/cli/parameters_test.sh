@@ -51,7 +51,7 @@ $tool "$photo" --srisp-unprocess:precision=fast "$reference" -o fast.exr
 if grep -qw avx512_bf16 /proc/cpuinfo; then limit=1e-3; else limit=1e-4; fi
 check "precision=fast gives nearly the same" near raw.exr fast.exr $limit 0
 check "but not the same" sh -c '! cmp -s raw.exr fast.exr'
-check "another precision is refused" says 2 "must be float32 or fast" \
+check "another precision is refused" says 2 "unknown precision 'half'; known: float32, fast" \
     "$tool" "$photo" --srisp-unprocess:precision=half "$reference" -o no.tif
 check "nothing is left" nothing_left
 finish

@@ -38,6 +38,10 @@ cp reference.dng "odd folder/100%.dng"
 oiiotool "odd folder/a photo.jpg.srisp?reference=odd%20folder/100%25.dng" -o odd.exr
 check "a query is percent-decoded" same expected.exr odd.exr
 
+cp reference.dng "odd folder/x*;y[1].dng"
+oiiotool "photo.jpg.srisp?reference=odd folder/x*;y[1].dng;odd folder/100%25.dng&seed=18446744073709551615" -o odd.exr
+check "odd names in a list, and the largest seed" same expected.exr odd.exr
+
 for type in exr tif png jpg; do
     case $type in jpg) depth=uint8 ;; exr) depth=half ;; *) depth=uint16 ;; esac
     oiiotool "$name" -d "$depth" -o "raw.$type"

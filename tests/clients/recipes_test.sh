@@ -20,6 +20,13 @@ check "a texture is a source too: its MIP levels are kept" sh -c \
     'maketx --format openexr photo.jpg -o photo.tx && iinfo "photo.tx.srisp?reference=reference.dng&input=srgb" >/dev/null &&
      oiiotool --info -v "photo.tx.srisp?reference=reference.dng&input=srgb" | grep -q "MIP-map levels: 160"'
 
+mkdir "odd [1];*"
+for name in "a;b.dng" "x*.dng" "y[1].dng"; do cp reference.dng "odd [1];*/$name"; done
+for list in '"a;b.dng"' '"x*.dng;y[1].dng;a;b.dng"' '["a;b.dng", "x*.dng", "y[1].dng"]' '"*.dng"'; do
+    printf '{ "format": "srisp-recipe-1", "source": "../photo.jpg", "reference": %s }\n' "$list" >"odd [1];*/a.srisp"
+    check "a recipe in an odd folder takes the reference $list" same expected.exr "odd [1];*/a.srisp"
+done
+
 /usr/bin/python3 - <<'END'
 import json
 import OpenImageIO as oiio

@@ -9,6 +9,7 @@
 #include "test_images.h"
 
 using namespace srisp;
+using namespace srisp::plugin;
 
 namespace {
 
@@ -42,16 +43,12 @@ std::string text_of(const std::string& path)
 
 TEST_CASE("a stub's name tells job and frame, also while a host writes it under another")
 {
-    std::string job, frame;
-    parse_stub_name("/t/3.0007.srisp", job, frame);
-    CHECK(job == "/t/3.json");
-    CHECK(frame == "0007");
-    parse_stub_name("/t/3.0007.12ab34cd.temp.srisp", job, frame);
-    CHECK(job == "/t/3.json");
-    CHECK(frame == "0007");
-    parse_stub_name("/t/3.srisp", job, frame);
-    CHECK(job == "/t/3.json");
-    CHECK(frame.empty());
+    for (const char* path : { "/t/3.0007.srisp", "/t/3.0007.12ab34cd.temp.srisp" }) {
+        CHECK(parse_stub_name(path).job == "/t/3.json");
+        CHECK(parse_stub_name(path).frame == "0007");
+    }
+    CHECK(parse_stub_name("/t/3.srisp").job == "/t/3.json");
+    CHECK(parse_stub_name("/t/3.srisp").frame.empty());
 }
 
 TEST_CASE("what is handed over comes back as the file itself would")
@@ -173,6 +170,14 @@ TEST_CASE("only names that belong to a job are written")
     deep.deep = true;
     CHECK(!output.open(folder.path("1.1.srisp"), deep, OIIO::ImageOutput::Create));
     CHECK(has(output.geterror(), "deep"));
+}
+
+TEST_CASE("a text is a stub, or none")
+{
+    CHECK(parse_stub(stub_text("12-3")).value() == "12-3");
+    CHECK(parse_stub("{\"format\": \"srisp-slot-1\"}").value().empty());
+    CHECK(!parse_stub("{\"format\": \"srisp-recipe-1\"}"));
+    CHECK(!parse_stub("no JSON"));
 }
 
 TEST_CASE("a stub whose image is gone says so")

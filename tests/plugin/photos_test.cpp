@@ -12,6 +12,7 @@
 #include "test_images.h"
 
 using namespace srisp;
+using namespace srisp::plugin;
 
 namespace {
 

@@ -64,7 +64,8 @@ inline std::vector<float> read_all(OIIO::ImageInput& input, int subimage = 0, in
 }
 
 /// Opens through our reader; fails the test where that fails.
-inline OIIO::ImageSpec open_ours(srisp::SrispInput& input, const std::string& name, const OIIO::ImageSpec& config = {})
+inline OIIO::ImageSpec open_ours(srisp::plugin::SrispInput& input, const std::string& name,
+                                 const OIIO::ImageSpec& config = {})
 {
     OIIO::ImageSpec spec;
     REQUIRE_MESSAGE(input.open(name, spec, config), input.geterror());
@@ -74,7 +75,7 @@ inline OIIO::ImageSpec open_ours(srisp::SrispInput& input, const std::string& na
 /// Why our reader refuses a name.
 inline std::string refusal_of(const std::string& name, const OIIO::ImageSpec& config = {})
 {
-    srisp::SrispInput input;
+    srisp::plugin::SrispInput input;
     OIIO::ImageSpec spec;
     REQUIRE(!input.open(name, spec, config));
     return input.geterror();

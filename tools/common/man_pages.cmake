@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# srisp_man_page(tool help_option): builds and installs <tool>.1 from what the tool itself says.
+# srisp_man_page(tool help_option [OPTIONAL]): builds and installs <tool>.1 from what the tool itself says.
 function(srisp_man_page tool help_option)
     set(page ${PROJECT_BINARY_DIR}/share/man/man1/${tool}.1)
     set(script ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/man_page.sh)
@@ -9,5 +9,5 @@ function(srisp_man_page tool help_option)
         COMMAND ${CMAKE_COMMAND} -E rename ${page}.new ${page}
         DEPENDS ${tool} ${script} VERBATIM)
     add_custom_target(${tool}_man_page ALL DEPENDS ${page})
-    install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+    install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 ${ARGN})
 endfunction()

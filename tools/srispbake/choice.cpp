@@ -10,7 +10,6 @@
 #include "../common/interrupt.h"
 #include "../common/require.h"
 #include "base/file_bytes.h"
-#include "parameters/printed_parameters.h"
 
 namespace srisp::tool {
 
@@ -34,7 +33,7 @@ Parameters given_parameters(const std::string& path, const Model& model)
     auto text = read_head(path, kLargestParameters);
     if (!text)
         fail("parameters '" + path + "': " + text.error().message);
-    const Parameters parameters = require(parameters_from_json(without_image_name(*text), "'" + path + "'"));
+    const Parameters parameters = require(parameters_from_json(*text, "'" + path + "'"));
     if (const Status fits = check_parameters(parameters, model); !fits)
         fail("parameters '" + path + "': " + fits.error().message +
              " (srisptool PHOTO --srisp-params:model=pointwise REFERENCE prints such)");

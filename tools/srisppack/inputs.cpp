@@ -11,7 +11,8 @@
 #include "base/file_bytes.h"
 #include "base/seeded_hash.h"
 #include "camera_folder.h"
-#include "reference/camera_files.h"
+#include "recipe/reference_pattern.h"
+#include "reference/file_type.h"
 
 namespace srisp::tool {
 

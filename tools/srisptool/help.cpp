@@ -1,31 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "help.h"
 
+#include <algorithm>
+#include <sstream>
+
+#include "command_line.h"
+
 namespace srisp::tool {
 
-const char kHelp[] = R"(srisptool -- oiiotool, and the way from a photo to a RAW-like image and back
+namespace {
+
+const char kHead[] = R"(srisptool -- oiiotool, and the way from a photo to a RAW-like image and back
 
 Usage: srisptool [filename|command]...
 
 Every command of oiiotool works as always; srisptool --help lists them. These
 are added:
 
-  --srisp-unprocess REF     Turn the photo on top of the stack into the linear
-                            image that the camera of REF would have recorded
-                            (options: model=, params=, input=, precision=,
-                            hold=, seed=)
-  --srisp-process           Turn a RAW-like image into a photo again, by the
-                            parameters recorded in it (options: params=, model=,
-                            precision=)
-  --srisp-params REF        Print the parameters that --srisp-unprocess would
-                            choose, as JSON on stdout, one line per image; the
-                            image stays as it is (options: model=, input=, seed=)
-  --srisp-save-params FILE  Write the parameters recorded in the image to FILE;
-                            # or %04d in its name is the frame number
-  --srisp-help              Print this
-  --quiet                   No notes and no progress; the same as -q
-  --no-progress             No progress on the terminal
+)";
 
+const char kReferences[] = R"(
 REF is a RAW file, a linear image that srisptool made, or any linear EXR in
 camera RGB. A folder, a quoted pattern ("shots/*.dng") or a list ("a.dng;b.dng")
 stands for one of its files, chosen by seed= and the photo's name. With params=
@@ -34,17 +28,9 @@ it may be "-". Names of references, parameters and models are taken literally:
 
 Options of these commands follow the command, as in oiiotool:
 
-  model=NAME     default, pointwise, or the path of a .safetensors file
-  params=FILE    the parameters in FILE instead of chosen ones: what --srisp-params
-                 or --srisp-save-params wrote, edited or not
-  input=KIND     what the photo's values are: srgb, linear, or auto (float is
-                 linear, integers are sRGB)
-  precision=KIND float32, or fast: one and a half to nearly two times as fast,
-                 with an error well below one code value of 10 bits
-  hold=1         keep the first frame's parameters over a sequence, so that
-                 nothing flickers
-  seed=N         for the choice among several references
+)";
 
+const char kTail[] = R"(
 A value that holds a colon is quoted: '--srisp-unprocess:params="at 12:30.json"'
 
 RAW-like images need more than 8 bits. Where no -d is given and the format
@@ -55,7 +41,7 @@ Examples:
   srisptool raw.exr --srisp-process -o photo_again.png
   srisptool photo.jpg --srisp-params ref.dng > look.json
   srisptool photo.jpg --srisp-unprocess:params=look.json - -o raw.exr
-  srisptool --frames 1-240 shot.#.jpg --srisp-unprocess:hold=1 ref.dng -o raw.#.exr
+  srisptool --frames 1-240 s.#.jpg --srisp-unprocess:hold=1 ref.dng -o raw.#.exr
 
 Environment:
   SRISP_OIIOTOOL    the oiiotool to run; default: the first on PATH that is not
@@ -66,5 +52,61 @@ Environment:
 Exit codes: oiiotool's own; 1 where srisptool itself failed, 2 for wrong usage
 of its commands.
 )";
+
+/// One entry of a list: its name, and its text wrapped in the column beside it.
+std::string entry(const std::string& name, std::size_t column, const std::string& text)
+{
+    constexpr std::size_t kWidth = 80;
+    std::string result, line = "  " + name;
+    line.resize(std::max(line.size(), column - 1), ' ');
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        if (line.size() + 1 + word.size() > kWidth) {
+            result += line + "\n";
+            line.assign(column - 1, ' ');
+        }
+        line += " " + word;
+    }
+    return result + line + "\n";
+}
+
+std::string command_entry(const SrispCommand& command)
+{
+    std::string options;
+    for (const std::string& key : option_keys(command.door))
+        options += (options.empty() ? " (options: " : ", ") + key + "=";
+    const std::string argument = command.argument ? std::string(" ") + command.argument : "";
+    return entry(std::string("--") + command.name + argument, 28,
+                 command.help + options + (options.empty() ? "" : ")"));
+}
+
+std::string option_entry(const Option& option)
+{
+    std::string text = option.help;
+    const std::string by_default = std::string(" (default ") + option.default_value + ")";
+    if (option.type == OptionType::number)
+        text += by_default;
+    if (option.type == OptionType::choice) {
+        std::string values;
+        for (std::size_t i = 0; i < option.values.size(); ++i)
+            values += (i == 0 ? "" : i + 1 < option.values.size() ? ", " : " or ") + option.values[i];
+        text = values + by_default + ": " + text;
+    }
+    return entry(std::string(option.key) + "=" + option.argument, 17, text);
+}
+
+} // namespace
+
+std::string help_text()
+{
+    std::string text = kHead;
+    for (const SrispCommand& command : srisp_commands())
+        text += command_entry(command);
+    text += kReferences;
+    for (const Option& option : option_table())
+        if (option.doors & (kUnprocess | kProcess | kParams))
+            text += option_entry(option);
+    return text + kTail;
+}
 
 } // namespace srisp::tool

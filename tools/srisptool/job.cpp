@@ -1,47 +1,97 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job.h"
 
-#include <algorithm>
+#include <filesystem>
 
 #include "base/near_names.h"
+#include "model/model_files.h"
+#include "recipe/frame_pattern.h"
+#include "recipe/option_table.h"
+#include "recipe/reference_pattern.h"
 
 #include "../common/failure.h"
-#include "frame_pattern.h"
-#include "inputs.h"
-#include "modifiers.h"
 
 namespace srisp::tool {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 const char* const kWithoutReference = "-";
 
-void require_known(const SrispCommand& command, const std::string& word, const std::string& name)
+std::string absolute(const std::string& path)
 {
-    const std::vector<std::string> known(command.modifiers.begin(), command.modifiers.end());
-    if (std::find(known.begin(), known.end(), name) == known.end())
-        fail_usage("'" + word + "': unknown modifier '" + name + "'" + near_names(name, known));
+    return fs::absolute(path).lexically_normal().string();
 }
 
-void set_choice(nlohmann::json& job, const std::string& command, const std::string& name, const std::string& value)
+bool exists(const std::string& path)
 {
-    const auto require_one_of = [&](const std::vector<std::string>& values, const char* listed) {
-        if (std::find(values.begin(), values.end(), value) == values.end())
-            fail_usage(command + ": " + name + " is '" + value + "', must be " + listed);
-    };
-    if (name == "input") {
-        require_one_of({ "auto", "srgb", "linear" }, "auto, srgb or linear");
-        job["input"] = value;
-    } else if (name == "precision") {
-        require_one_of({ "float32", "fast" }, "float32 or fast");
-        job["precision"] = value;
-    } else if (name == "hold") {
-        require_one_of({ "0", "1" }, "0 or 1");
-        job["hold"] = value == "1";
+    std::error_code error;
+    return fs::exists(path, error);
+}
+
+std::string existing_file(const std::string& command, const std::string& what, const std::string& path)
+{
+    std::error_code error;
+    if (fs::is_directory(path, error))
+        fail(command + ": " + what + " '" + path + "' is a folder, not a file");
+    if (!exists(path))
+        fail(command + ": " + what + " '" + path + "' does not exist");
+    return absolute(path);
+}
+
+std::string existing_model(const std::string& command, const std::string& name_or_path)
+{
+    const Expected<std::string> file = find_model_file(name_or_path);
+    if (!file)
+        fail_usage(command + ": " + file.error().message);
+    // A path is passed on as such, a name as a name: the plugin finds the same file, and records the name.
+    return *file == name_or_path ? existing_file(command, "model", name_or_path) : name_or_path;
+}
+
+/// The path of a file to be written, whose folder must exist.
+std::string output_path(const std::string& command, const std::string& path)
+{
+    const fs::path file = absolute(path);
+    std::error_code error;
+    if (fs::is_directory(file, error))
+        fail(command + ": '" + path + "' is a folder, not a file");
+    if (!fs::is_directory(file.parent_path(), error))
+        fail(command + ": the folder of '" + path + "' does not exist");
+    return file.string();
+}
+
+nlohmann::json existing_references(const std::string& command, const std::string& text)
+{
+    const Expected<std::vector<std::string>> typed = split_references(text);
+    if (!typed || typed->empty())
+        fail_usage(command + ": the list of references '" + text + "' is empty");
+    std::vector<std::string> paths;
+    for (const std::string& item : *typed) {
+        if (!exists(item))
+            if (const auto files = expand_references({ item }); !files || !exists(files->front()))
+                fail(command + ": reference '" + item + "' does not exist");
+        paths.push_back(fs::path(resolved_reference(item, fs::current_path())).lexically_normal().string());
+    }
+    return paths.size() == 1 && exists(paths[0]) ? nlohmann::json(paths[0]) : nlohmann::json(paths);
+}
+
+void set_modifier(nlohmann::json& job, const SrispCommand& command, const Modifier& modifier, const std::string& word)
+{
+    const std::string name = std::string("--") + command.name;
+    const Option* const option = find_option(command.door, modifier.first);
+    if (!option)
+        fail_usage("'" + word + "': unknown modifier '" + modifier.first + "'" +
+                   near_names(modifier.first, option_keys(command.door)));
+    if (option->type == OptionType::model) {
+        job[option->key] = existing_model(name, modifier.second);
+    } else if (option->type == OptionType::parameters) {
+        job["parameters"] = existing_file(name, "parameter file", modifier.second);
     } else {
-        if (value.find_first_not_of("0123456789") != std::string::npos || value.size() > 18)
-            fail_usage(command + ": seed is '" + value + "', must be a whole number of at most 18 digits");
-        job["seed"] = std::stoull(value);
+        auto value = option_value(*option, modifier.second);
+        if (!value)
+            fail_usage(name + ": " + value.error().message);
+        job[option->key] = std::move(*value);
     }
 }
 
@@ -52,19 +102,12 @@ nlohmann::json job_of(const Step& step)
     const SrispCommand& command = *step.srisp;
     const std::string name = std::string("--") + command.name;
     nlohmann::json job = { { "format", "srisp-recipe-1" }, { "direction", command.direction } };
-    for (const auto& [modifier, value] : parse_modifiers(step.words[0])) {
-        require_known(command, step.words[0], modifier);
-        if (modifier == "model")
-            job["model"] = model_input(name, value);
-        else if (modifier == "params")
-            job["parameters"] = file_input(name, "parameter file", value);
-        else
-            set_choice(job, name, modifier, value);
-    }
+    for (const Modifier& modifier : parse_modifiers(step.words[0]))
+        set_modifier(job, command, modifier, step.words[0]);
     if (std::string(command.action) == "save") {
         job["file"] = frame_pattern_of_file(output_path(name, step.words[1]));
     } else if (command.argument && step.words[1] != kWithoutReference) {
-        job["reference"] = reference_input(name, step.words[1]);
+        job["reference"] = existing_references(name, step.words[1]);
     } else if (command.argument && !job.contains("parameters")) {
         fail_usage(name + " -: without a reference it needs params=FILE");
     }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -17,7 +16,9 @@ struct JobFile {
     nlohmann::json content;
 };
 
-/// What one of our commands asks for, its modifiers and files checked.
+/// What one of our commands asks for. What it names is looked up before oiiotool starts, so that a slip costs no work
+/// and touches no output; each failure says the command and the name as typed. Paths come out absolute: job files lie
+/// in another folder. References: the path of a file or folder, or an array of paths and globs.
 nlohmann::json job_of(const Step& step);
 
 } // namespace srisp::tool

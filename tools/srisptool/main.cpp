@@ -6,7 +6,7 @@
 #include "../common/run_tool.h"
 #include "command_line.h"
 #include "help.h"
-#include "session.h"
+#include "stock_oiiotool.h"
 
 using namespace srisp;
 using namespace srisp::tool;
@@ -22,11 +22,11 @@ static int run(const std::string& program, const std::vector<std::string>& words
 {
     const std::vector<Step> steps = parse_command_line(words);
     if (contains(steps, "srisp-help")) {
-        std::fputs(kHelp, stdout);
+        std::fputs(help_text().c_str(), stdout);
         return 0;
     }
     if (words.empty() || contains(steps, "help")) {
-        std::fputs(kHelp, stdout);
+        std::fputs(help_text().c_str(), stdout);
         std::fputs("\n", stdout);
     } else if (contains(steps, "version") && program == "srisptool") {
         std::puts("srisptool " SRISP_VERSION ", with oiiotool");

@@ -5,6 +5,9 @@
 #include <cctype>
 #include <cstring>
 
+#include "../common/failure.h"
+#include "command_line.h"
+
 namespace srisp::tool {
 
 /// Words of a list that is separated by spaces.
@@ -27,6 +30,35 @@ Depth deepest(const std::string& name)
             extension))
         return Depth::eight;
     return Depth::any;
+}
+
+/// Modifiers of a command that is not ours to criticise: none if they are malformed.
+static Modifiers oiiotool_modifiers(const std::string& word)
+{
+    try {
+        return parse_modifiers(word);
+    } catch (const Failure&) {
+        return {};
+    }
+}
+
+std::string choose_depth(std::vector<std::string>& words)
+{
+    for (const char* name : { "datatype", "type", "bits" })
+        if (has_modifier(words[0], name))
+            return {};
+    std::string format = words[1];
+    for (const auto& [name, value] : oiiotool_modifiers(words[0]))
+        if (name == "fileformatname")
+            format = value;
+    const Depth depth = deepest(format);
+    if (depth == Depth::sixteen)
+        words[0] += ":datatype=uint16";
+    if (depth != Depth::eight)
+        return {};
+    return "'" + words[1] +
+           "' holds 8 bits per channel, few for linear values; write EXR, TIFF or PNG, or say '-d uint8' to keep this "
+           "format without this warning";
 }
 
 } // namespace srisp::tool

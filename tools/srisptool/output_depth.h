@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace srisp::tool {
 
@@ -14,5 +15,10 @@ enum class Depth {
 
 /// By the extension of a file name, or the name of a format.
 Depth deepest(const std::string& name);
+
+/// For a RAW-like image 8 bits are too few, and that is what oiiotool writes where the format cannot hold float: an
+/// output command (`-o` and the file's name) that says no depth gets the deepest that its format holds. Returns a
+/// warning where that is 8 bits, else nothing.
+std::string choose_depth(std::vector<std::string>& words);
 
 } // namespace srisp::tool

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "recipe/frame_pattern.h"
+
 #include "../common/failure.h"
-#include "frame_pattern.h"
-#include "modifiers.h"
 #include "output_depth.h"
 
 namespace srisp::tool {
@@ -79,36 +79,8 @@ private:
         else if (step.is_named("label") && words.size() > 1)
             m_labels.push_back(words[1]);
         else if (step.is_named("o") && words.size() > 1 && m_raw && !m_depth_given)
-            choose_depth(words);
-    }
-
-    /// For a RAW-like image 8 bits are too few, and that is what oiiotool writes where the format cannot hold float.
-    void choose_depth(std::vector<std::string>& words)
-    {
-        for (const char* name : { "datatype", "type", "bits" })
-            if (has_modifier(words[0], name))
-                return;
-        std::string format = words[1];
-        for (const auto& [name, value] : oiiotool_modifiers(words[0]))
-            if (name == "fileformatname")
-                format = value;
-        const Depth depth = deepest(format);
-        if (depth == Depth::sixteen)
-            words[0] += ":datatype=uint16";
-        else if (depth == Depth::eight)
-            m_result.warnings.push_back("'" + words[1] +
-                                        "' holds 8 bits per channel, few for linear values; write EXR, TIFF or "
-                                        "PNG, or say '-d uint8' to keep this format without this warning");
-    }
-
-    /// Those of a command that is not ours to criticise: none if they are malformed.
-    static Modifiers oiiotool_modifiers(const std::string& word)
-    {
-        try {
-            return parse_modifiers(word);
-        } catch (const Failure&) {
-            return {};
-        }
+            if (const std::string warning = choose_depth(words); !warning.empty())
+                m_result.warnings.push_back(warning);
     }
 
     void add_ours(const Step& step)

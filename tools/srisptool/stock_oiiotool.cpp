@@ -3,17 +3,84 @@
 
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <sstream>
 
 #include "../common/failure.h"
 #include "../common/own_location.h"
+#include "../common/shell_quote.h"
+#include "../common/temporary_folder.h"
+#include "child_process.h"
+#include "output_guard.h"
+#include "rewriter.h"
 
 extern char** environ;
 
 namespace srisp::tool {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+const char kGuardLink[] = "guard.so";
+
+/// What outputs record as the command that made them; as with oiiotool, --nosoftwareattrib asks for nothing, and
+/// --sansattrib for less.
+std::string recorded_command(const std::string& program, const std::vector<Step>& steps)
+{
+    if (contains(steps, "nosoftwareattrib"))
+        return "";
+    const bool without_attributes = contains(steps, "sansattrib");
+    std::vector<std::string> words = { program };
+    for (const Step& step : steps) {
+        const bool attribute = step.is_named("attrib") || step.is_named("sattrib") || step.is_named("oiioattrib");
+        if (!(without_attributes && (attribute || step.is_named("sansattrib"))))
+            words.insert(words.end(), step.words.begin(), step.words.end());
+    }
+    return shell_line(words);
+}
+
+/// JSON is UTF-8, file names are any bytes.
+std::string json_text(const nlohmann::json& content)
+{
+    try {
+        return content.dump(2) + "\n";
+    } catch (const nlohmann::json::exception&) {
+        nlohmann::json without_command = content;
+        if (without_command.erase("command") > 0)
+            return json_text(without_command);
+        fail("a file name is not valid UTF-8, job files cannot hold it: " +
+             content.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    }
+}
+
+void write_file(const fs::path& path, const std::string& text)
+{
+    std::ofstream file(path, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file)
+        fail("cannot write '" + path.string() + "' (is the disk full? TMPDIR may name another folder)");
+}
+
+/// A name that the user made by an expression of an image's name, such as {TOP.filename}, may lie in our folder, where
+/// it would be lost without a word.
+void refuse_lost_outputs(const fs::path& folder)
+{
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        const bool ours = name == "lock" || name == kGuardLink || name == kStartedOutputs ||
+                          entry.path().extension() == ".srisp" || entry.path().extension() == ".json";
+        if (!ours)
+            fail("output '" + entry.path().string() +
+                 "' was lost: after one of our commands {TOP.filename} is a temporary "
+                 "name; write the output's name out");
+    }
+}
+
+} // namespace
 
 bool is_srisptool(const fs::path& program)
 {
@@ -65,6 +132,48 @@ std::vector<std::string> environment_with_plugin(const fs::path& plugin_folder)
     set_variable(environment, "OIIO_LIBRARY_PATH", plugin_folder.string(), true);
     set_variable(environment, "OPENIMAGEIO_PLUGIN_PATH", plugin_folder.string(), true); // its name since 2.5
     return environment;
+}
+
+void run_unchanged(const std::vector<Step>& steps)
+{
+    std::vector<std::string> words = { find_stock_oiiotool().string() };
+    for (const Step& step : steps) {
+        if (!step.srisp)
+            words.insert(words.end(), step.words.begin(), step.words.end());
+        else if (step.is_named("quiet"))
+            words.push_back("-q");
+    }
+    become(words, environment_with_plugin(plugin_folder()));
+}
+
+int run_rewritten(const std::string& program, const std::vector<Step>& steps)
+{
+    const fs::path stock = find_stock_oiiotool();
+    const fs::path plugins = plugin_folder();
+    HeldSignals signals;
+    const TemporaryFolder folder;
+
+    RewriteOptions options;
+    options.folder = folder.path().string();
+    options.typed_command = recorded_command(program, steps);
+    options.notes = !contains(steps, "quiet") && !contains(steps, "q");
+    options.progress = options.notes && isatty(STDERR_FILENO) && !contains(steps, "no-progress");
+    Rewritten rewritten = rewrite(steps, options);
+    for (const std::string& warning : rewritten.warnings)
+        std::fprintf(stderr, "srisptool WARNING: %s\n", warning.c_str());
+    for (const JobFile& file : rewritten.files)
+        write_file(folder.path() / file.name, json_text(file.content));
+
+    std::vector<std::string> environment = environment_with_plugin(plugins);
+    // Through a link, since LD_PRELOAD cannot name a path with spaces or colons.
+    fs::create_symlink(plugins / "output_guard.so", folder.path() / kGuardLink);
+    set_variable(environment, "LD_PRELOAD", (folder.path() / kGuardLink).string(), true);
+    set_variable(environment, kGuardListVariable, (folder.path() / kStartedOutputs).string());
+    rewritten.words.insert(rewritten.words.begin(), stock.string());
+    const int exit_code = signals.run(rewritten.words, environment);
+    if (exit_code == 0)
+        refuse_lost_outputs(folder.path());
+    return exit_code;
 }
 
 } // namespace srisp::tool

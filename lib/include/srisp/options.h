@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include <srisp/expected.h>
 #include <srisp/export.h>
+#include <srisp/parameters.h>
 
 namespace srisp {
 
@@ -20,9 +23,6 @@ enum class Precision {
          ///< elsewhere with fewer multiply-adds in float32: within 1e-4, 1e-6 on average
 };
 
-/// Reads "float32" or "fast"; an error names both.
-SRISP_API Expected<Precision> precision_from_name(const std::string& name);
-
 /// How the stored colour values of an image are to be read.
 enum class InputEncoding {
     automatic, ///< what the image says: colour-space name, then ICC profile, then the type (float EXR is "Linear")
@@ -31,7 +31,18 @@ enum class InputEncoding {
     camera     ///< a RAW-like image, to be processed forward: values are taken as they are
 };
 
-/// Reads "auto", "srgb" or "linear"; an error names all three.
-SRISP_API Expected<InputEncoding> input_encoding_from_name(const std::string& name);
+/// What may be asked for beside a photo and a reference.
+struct Options {
+    std::string model; ///< name, or path of a .safetensors file; empty: what `parameters` name, else "default"
+    std::optional<Parameters> parameters; ///< in place of selected ones (reverse) or recorded ones (forward)
+    InputEncoding input = InputEncoding::automatic;
+    Precision precision = Precision::float32;
+    std::uint64_t seed = 0; ///< with the photo's name it says which of several references is taken
+};
+
+/// Sets one option by its name, as a query, a recipe and srisptool do: model, params (the path of a JSON file), input
+/// (auto, srgb, linear), precision (float32, fast), seed. Errors: unknown keys and values (the near ones listed), a
+/// file that cannot be read.
+SRISP_API Status set_option(Options& options, const std::string& key, const std::string& value);
 
 } // namespace srisp

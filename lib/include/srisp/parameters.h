@@ -30,12 +30,13 @@ struct Parameters {
 /// line.
 SRISP_API std::string to_json(const Parameters& parameters, int indent = 2);
 
-/// Reads what `to_json` wrote, edited or not. `where` names the source of the text in messages. Errors: not JSON,
-/// unknown or missing keys (the near ones listed), wrong types or lengths, values that are not finite or not > 0,
-/// singular C.
+/// Reads what `to_json` wrote, or a line that `srisptool --srisp-params` printed, edited or not. `where` names the
+/// source of the text in messages. Errors: not JSON, unknown or missing keys (the near ones listed), wrong types or
+/// lengths, values that are not finite or not > 0, singular C.
 SRISP_API Expected<Parameters> parameters_from_json(const std::string& text, const std::string& where);
 
-/// Whether these parameters were chosen with this model: an error if hash or number of weights differ.
+/// Whether these parameters were chosen with this model and can be applied: an error if hash or number of weights
+/// differ, gain, gamma or white balance are not finite and > 0, or C is singular.
 SRISP_API Status check_parameters(const Parameters& parameters, const Model& model);
 
 } // namespace srisp

@@ -30,9 +30,13 @@ struct Reference {
 /// frames (98th percentile below 0.005), truncated files, empty areas. [P 4.2; DNG 1.4]
 SRISP_API Expected<std::shared_ptr<const Reference>> load_reference(const std::string& path);
 
-/// Chooses one file where `pattern` names several: a folder, a glob, or a list (`a.dng;b.dng`); a plain file is itself.
-/// The choice depends on `seed` and `photo_name` only (the base name is used), not on the order in which photos come.
+/// Chooses one file where `pattern` names several: a folder, a glob, or a list (`a.dng;b.dng`); a plain file is itself,
+/// and so is any name that exists. The choice depends on `seed` and `photo_name` only (the base name is used), not on
+/// the order in which photos come.
 SRISP_API Expected<std::string> choose_reference(const std::string& pattern, std::uint64_t seed,
+                                                 const std::string& photo_name);
+/// The same for a list of files, folders and globs, in which ';' parts nothing.
+SRISP_API Expected<std::string> choose_reference(const std::vector<std::string>& patterns, std::uint64_t seed,
                                                  const std::string& photo_name);
 
 /// `load_reference` with a cache for the whole process: key is path, inode, size and modification time in ns.

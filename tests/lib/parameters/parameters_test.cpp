@@ -91,6 +91,15 @@ TEST_CASE("parameters without weights are JSON, too")
     REQUIRE(parameters_from_json(to_json(Parameters()), "test"));
 }
 
+TEST_CASE("a line that srisptool printed is parameters, too")
+{
+    const std::string text = to_json(random_parameters(1), -1);
+    const auto printed = parameters_from_json("{\"image\": \"a b.jpg\", " + text.substr(1), "test");
+    REQUIRE_MESSAGE(printed, printed.error().message);
+    CHECK(to_json(*printed, -1) == text);
+    CHECK(message_after([](json& o) { o["image"] = 1; }) == "parameters in 'p.json' 'image' must be a text");
+}
+
 TEST_CASE("an edited gain and white balance win as written")
 {
     json object = json::parse(to_json(random_parameters(1)));

@@ -129,16 +129,6 @@ void check_against_lcms(const std::vector<unsigned char>& icc)
 
 } // namespace
 
-TEST_CASE("input names are auto, srgb and linear, and others list them")
-{
-    CHECK(*input_encoding_from_name("auto") == InputEncoding::automatic);
-    CHECK(*input_encoding_from_name("linear") == InputEncoding::linear);
-    const auto unknown = input_encoding_from_name("sgrb");
-    REQUIRE(!unknown);
-    CHECK(unknown.error().message.find("unknown input 'sgrb'") != std::string::npos);
-    CHECK(unknown.error().message.find("srgb") != std::string::npos);
-}
-
 TEST_CASE("display-encoded RGB goes through to the bit")
 {
     const auto converter = converter_of(photo_spec({ "R", "G", "B" }));

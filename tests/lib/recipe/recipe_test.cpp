@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recipe/recipe.h"
 
+#include <filesystem>
+
 #include <doctest/doctest.h>
 
+#include "recipe/option_table.h"
 #include "scratch_folder.h"
 
 using namespace srisp;
@@ -16,16 +19,24 @@ Recipe good(const std::string& text, bool is_job = false)
     return *recipe;
 }
 
+bool has(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+/// Parameters as JSON, with this gain.
+std::string parameters_text(float gain)
+{
+    Parameters parameters;
+    parameters.gain = gain;
+    return to_json(parameters, -1);
+}
+
 std::string refused(const std::string& text, bool is_job = false)
 {
     const auto recipe = recipe_from_json(text, "/shots/a.srisp", is_job);
     REQUIRE(!recipe);
     return recipe.error().message;
-}
-
-bool has(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
 }
 
 } // namespace
@@ -35,26 +46,51 @@ TEST_CASE("paths in a recipe are relative to its folder")
     const Recipe recipe = good(R"({"format": "srisp-recipe-1", "source": "p.jpg", "reference": "a.dng;/b.dng;c/*.dng",
                                    "model": "m.safetensors", "seed": 5, "hold": true})");
     CHECK(recipe.source == "/shots/p.jpg");
-    CHECK(recipe.reference == "/shots/a.dng;/b.dng;/shots/c/*.dng");
+    CHECK(recipe.references == std::vector<std::string>{ "/shots/a.dng", "/b.dng", "/shots/c/*.dng" });
     CHECK(recipe.model == "/shots/m.safetensors");
     CHECK(recipe.seed == 5);
     CHECK(recipe.hold);
     CHECK(
         good(R"({"format": "srisp-recipe-1", "source": "/p.jpg", "reference": ["a.dng", "b.dng"], "model": "default"})")
-            .reference == "/shots/a.dng;/shots/b.dng");
+            .references == std::vector<std::string>{ "/shots/a.dng", "/shots/b.dng" });
+}
+
+TEST_CASE("references with odd names stand in a recipe, alone and in lists")
+{
+    const ScratchFolder folder;
+    std::vector<std::string> all;
+    for (const char* name : { "a;b.dng", "x*.dng", "y[1].dng" })
+        all.push_back(folder.file(name));
+    const auto references = [&](const std::string& json) {
+        const auto recipe =
+            recipe_from_json(R"({"format": "srisp-recipe-1", "source": "p.jpg", "reference": )" + json + "}",
+                             folder.path("r.srisp"), false);
+        REQUIRE_MESSAGE(recipe, recipe.error().message);
+        return recipe->references;
+    };
+    CHECK(references("\"a;b.dng\"") == std::vector<std::string>{ all[0] });
+    CHECK(references("\"a;b.dng;x*.dng;y[1].dng\"") == all);
+    CHECK(references(R"(["a;b.dng", "x*.dng", "y[1].dng"])") == all);
+    CHECK(references(R"(["c;d.dng"])") == std::vector<std::string>{ folder.path("c;d.dng") });
 }
 
 TEST_CASE("parameters stand in a recipe or in a file beside it")
 {
-    CHECK(good(R"({"format": "srisp-recipe-1", "source": "p.jpg", "parameters": {"gain": 1}})").parameters ==
-          "{\"gain\":1}");
+    const Recipe inside =
+        good(R"({"format": "srisp-recipe-1", "source": "p.jpg", "parameters": )" + parameters_text(3) + "}");
+    REQUIRE(inside.parameters);
+    CHECK(inside.parameters->gain == 3);
     const ScratchFolder folder;
-    folder.file("p.json", "{\"gain\": 2}");
-    const auto recipe = recipe_from_json(R"({"format": "srisp-recipe-1", "source": "p.jpg", "parameters": "p.json"})",
-                                         folder.path("a.srisp"), false);
-    REQUIRE(bool(recipe));
-    CHECK(recipe->parameters == "{\"gain\": 2}");
-    CHECK(recipe->parameters_where == "parameters '" + folder.path("p.json") + "'");
+    folder.file("p.json", "{\"image\": \"p.jpg\", " + parameters_text(2).substr(1));
+    const std::string beside = R"({"format": "srisp-recipe-1", "source": "p.jpg", "parameters": "p.json"})";
+    const auto recipe = recipe_from_json(beside, folder.path("a.srisp"), false);
+    REQUIRE_MESSAGE(recipe, recipe.error().message);
+    REQUIRE(recipe->parameters);
+    CHECK(recipe->parameters->gain == 2);
+    folder.file("p.json", "{}");
+    CHECK(recipe_from_json(beside, folder.path("a.srisp"), false).error().message ==
+          "recipe '" + folder.path("a.srisp") + "': 'parameters': parameters in '" + folder.path("p.json") +
+              "' has no 'format'");
 }
 
 TEST_CASE("jobs have actions, recipes have sources")
@@ -79,6 +115,10 @@ TEST_CASE("a wrong recipe says what is wrong, and where")
           "recipe '/shots/a.srisp': unknown key 'refrence'; did you mean 'reference'?");
     CHECK(has(refused(R"({"format": "srisp-recipe-1", "source": 3})"), "'source': must be a text"));
     CHECK(has(refused(R"({"format": "srisp-recipe-1", "seed": -3})"), "'seed': must be a whole number from 0"));
+    CHECK(has(refused(R"({"format": "srisp-recipe-1", "seed": 18446744073709551616})"),
+              "'seed': must be a whole number from 0 to 18446744073709551615"));
+    CHECK(has(refused(R"({"format": "srisp-recipe-1", "formt": "a"})"), "unknown key 'formt'; did you mean 'format'?"));
+    CHECK(has(refused(R"({"format": "srisp-recipe-1", "lazy": true})"), "unknown key 'lazy'"));
     CHECK(has(refused(R"({"format": "srisp-recipe-1", "hold": 1})"), "'hold': must be true or false"));
     CHECK(has(refused(R"({"format": "srisp-recipe-1", "reference": [1]})"), "'reference': must be a path or a list"));
     CHECK(

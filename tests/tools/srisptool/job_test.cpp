@@ -46,13 +46,16 @@ TEST_CASE("a job holds what the command says, paths absolute")
     CHECK(job({ "--srisp-unprocess:params='" + parameters + "'", "-" }).contains("reference") == false);
 }
 
-TEST_CASE("lists and globs become arrays, and a name that exists is itself")
+TEST_CASE("lists and globs become arrays, and a name that exists is itself, also beside others")
 {
     const ScratchFolder scratch;
-    const std::string a = scratch.file("a.dng"), b = scratch.file("b.dng"), both = scratch.file("a.dng;b*.dng");
+    const std::string a = scratch.file("a.dng"), b = scratch.file("b.dng"), both = scratch.file("a.dng;b*.dng"),
+                      odd = scratch.file("y[1].dng"), glob = scratch.path("?.dng");
     CHECK(job({ "--srisp-params", a + ";" + b })["reference"] == nlohmann::json{ a, b });
-    CHECK(job({ "--srisp-params", scratch.path("?.dng") })["reference"] == nlohmann::json{ a, b });
+    CHECK(job({ "--srisp-params", glob })["reference"] == nlohmann::json{ glob });
     CHECK(job({ "--srisp-params", both })["reference"] == both);
+    CHECK(job({ "--srisp-params", a + ";" + both + ";" + odd + ";" + glob })["reference"] ==
+          nlohmann::json{ a, both, odd, glob });
     CHECK(job({ "--srisp-params", scratch.path() })["reference"] == scratch.path());
 }
 
@@ -84,11 +87,11 @@ TEST_CASE("wrong modifiers are wrong usage")
     CHECK(failure({ "--srisp-unprocess:modl=a", "-" }) ==
           "2: '--srisp-unprocess:modl=a': unknown modifier 'modl'; did you mean 'model'?");
     CHECK(failure({ "--srisp-process:hold=1" }) ==
-          "2: '--srisp-process:hold=1': unknown modifier 'hold'; known: params, model, precision");
+          "2: '--srisp-process:hold=1': unknown modifier 'hold'; known: model, params, precision");
     CHECK(failure({ "--srisp-unprocess:input=raw", "-" }) ==
-          "2: --srisp-unprocess: input is 'raw', must be auto, srgb or linear");
-    CHECK(failure({ "--srisp-unprocess:hold=yes", "-" }) == "2: --srisp-unprocess: hold is 'yes', must be 0 or 1");
+          "2: --srisp-unprocess: unknown input 'raw'; known: auto, srgb, linear");
+    CHECK(failure({ "--srisp-unprocess:hold=yes", "-" }) == "2: --srisp-unprocess: hold 'yes' is neither 0 nor 1");
     CHECK(failure({ "--srisp-unprocess:seed=-1", "-" }) ==
-          "2: --srisp-unprocess: seed is '-1', must be a whole number of at most 18 digits");
+          "2: --srisp-unprocess: seed '-1' is not a whole number from 0 to 18446744073709551615");
     CHECK(failure({ "--srisp-unprocess", "-" }) == "2: --srisp-unprocess -: without a reference it needs params=FILE");
 }

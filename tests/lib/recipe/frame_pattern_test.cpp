@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../../../tools/srisptool/frame_pattern.h"
+#include "recipe/frame_pattern.h"
 
 #include <doctest/doctest.h>
 
 using namespace srisp;
-using namespace srisp::tool;
+using namespace srisp;
 
 TEST_CASE("the wildcard of a file name becomes printf's, that of a folder stays")
 {
@@ -25,4 +25,16 @@ TEST_CASE("the wildcard of an image may be @ and begin with a range")
     CHECK(frame_pattern_of_image("1-3#.tif") == "%04d.tif");
     CHECK(frame_pattern_of_image("/a1/1-3,7#.tif") == "/a1/%04d.tif");
     CHECK(frame_pattern_of_image("/a@b/s.tif") == "/a@b/s.tif");
+}
+
+TEST_CASE("frame numbers replace # and %d in file names")
+{
+    CHECK(with_frame("p.####.json", "0007") == "p.0007.json");
+    CHECK(with_frame("p.#.json", "0012") == "p.12.json");
+    CHECK(with_frame("p%04d.json", "7") == "p0007.json");
+    CHECK(with_frame("p%d.json", "0007") == "p7.json");
+    CHECK(with_frame("p.####.json", "-3") == "p.-003.json");
+    CHECK(with_frame("p.####.json", "0") == "p.0000.json");
+    CHECK(with_frame("p.json", "7") == "p.json");
+    CHECK(with_frame("p.#.json", "") == "p.#.json");
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "frame_pattern.h"
+#include "recipe/frame_pattern.h"
 
 #include <algorithm>
+#include <regex>
 
-namespace srisp::tool {
+namespace srisp {
 
 /// `wildcards`: the characters that stand for digits; `range`: those that may stand before them.
 static std::string frame_pattern(const std::string& path, const char* wildcards, const char* range)
@@ -32,4 +33,21 @@ std::string frame_pattern_of_image(const std::string& path)
     return frame_pattern(path, "#@", "0123456789-,xy");
 }
 
-} // namespace srisp::tool
+std::string with_frame(const std::string& pattern, const std::string& frame)
+{
+    if (frame.empty())
+        return pattern;
+    std::smatch match;
+    if (!std::regex_search(pattern, match, std::regex("#+|%(0?)([0-9]{0,2})d")))
+        return pattern;
+    const bool hashes = match.str()[0] == '#';
+    const std::size_t width = hashes ? match.length() : match[2].length() ? std::stoul(match[2].str()) : 0;
+    const std::string sign = frame[0] == '-' ? "-" : "";
+    std::string digits = frame.substr(sign.size());
+    digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size() - 1));
+    if (sign.size() + digits.size() < width)
+        digits.insert(0, width - sign.size() - digits.size(), '0');
+    return match.prefix().str() + sign + digits + match.suffix().str();
+}
+
+} // namespace srisp

@@ -1,28 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "query.h"
-
-#include "job_actions.h"
 #include "open_name.h"
+
+#include <set>
+
 #include "test_images.h"
 
 using namespace srisp;
+using namespace srisp::plugin;
 
 TEST_CASE("a name is ours by its form alone")
 {
-    QueryName parts;
-    CHECK(!parse_name("photo.jpg", parts));
-    CHECK(!parse_name("photo.srisp.jpg", parts));
-    CHECK(!parse_name("srisp", parts));
-    CHECK(!parse_name(".srisp", parts));
-    CHECK(!parse_name("photo.jpg?reference=a.srispx", parts));
-    REQUIRE(parse_name("dir/photo.jpg.SRISP?reference=a.dng&seed=3", parts));
-    CHECK(parts.source == "dir/photo.jpg");
-    CHECK(parts.file == "dir/photo.jpg.SRISP");
-    CHECK(parts.query == "reference=a.dng&seed=3");
-    QueryName plain;
-    REQUIRE(parse_name("shot.srisp", plain));
-    CHECK(plain.source == "shot");
-    CHECK(plain.query.empty());
+    for (const char* other : { "photo.jpg", "photo.srisp.jpg", "srisp", ".srisp", "photo.jpg?reference=a.srispx" })
+        CHECK(!parse_name(other));
+    const auto parts = parse_name("dir/photo.jpg.SRISP?reference=a.dng&seed=3");
+    REQUIRE(parts);
+    CHECK(parts->source == "dir/photo.jpg");
+    CHECK(parts->file == "dir/photo.jpg.SRISP");
+    CHECK(parts->query == "reference=a.dng&seed=3");
+    const auto plain = parse_name("shot.srisp");
+    REQUIRE(plain);
+    CHECK(plain->source == "shot");
+    CHECK(plain->query.empty());
 }
 
 TEST_CASE("a query sets what it names, percent codes decoded")
@@ -30,7 +28,7 @@ TEST_CASE("a query sets what it names, percent codes decoded")
     Recipe recipe;
     REQUIRE(apply_query(recipe, "reference=my%20dir/a%26b%3D1%25.dng&model=pointwise&seed=12&input=linear&"
                                 "direction=forward&lazy=1"));
-    CHECK(recipe.reference == "my dir/a&b=1%.dng");
+    CHECK(recipe.references == std::vector<std::string>{ "my dir/a&b=1%.dng" });
     CHECK(recipe.model == "pointwise");
     CHECK(recipe.seed == 12);
     CHECK(recipe.input == InputEncoding::linear);
@@ -54,7 +52,11 @@ TEST_CASE("what a query cannot say is an error that lists the near ones")
     CHECK(refused("precision=fats") == "unknown precision 'fats'; did you mean 'fast'?");
     CHECK(has(refused("direction=back"), "unknown direction 'back'"));
     CHECK(has(refused("seed=-1"), "seed '-1' is not a whole number"));
-    CHECK(has(refused("seed=99999999999999999999"), "is not a whole number"));
+    CHECK(refused("seed=18446744073709551616") ==
+          "seed '18446744073709551616' is not a whole number from 0 to 18446744073709551615");
+    CHECK(has(refused("seed="), "seed '' is not a whole number"));
+    CHECK(refused("lazy=yes") == "lazy 'yes' is neither 0 nor 1");
+    CHECK(has(refused("hold=1"), "unknown option 'hold'"));
     CHECK(has(refused("params=/nowhere/p.json"), "parameters '/nowhere/p.json': No such file"));
 }
 
@@ -66,12 +68,39 @@ TEST_CASE("hints of a host set the same, unknown ones are errors, others are non
     config.attribute("srisp:reference", "a b.dng");
     config.attribute("srisp:seed", 7);
     REQUIRE(apply_hints(recipe, config));
-    CHECK(recipe.reference == "a b.dng");
+    CHECK(recipe.references == std::vector<std::string>{ "a b.dng" });
     CHECK(recipe.seed == 7);
     config.attribute("srisp:modle", "default");
     const Status status = apply_hints(recipe, config);
     REQUIRE(!status);
     CHECK(has(status.error().message, "'srisp:modle': unknown option 'modle'; did you mean 'model'?"));
+}
+
+TEST_CASE("references with odd names stand in queries and hints, alone and beside others")
+{
+    const ScratchFolder folder;
+    std::vector<std::string> all;
+    std::string list;
+    for (const char* name : { "a;b.exr", "b.exr", "x*.exr", "y[1].exr" }) {
+        all.push_back(write_reference(folder, name));
+        list += (list.empty() ? "" : ";") + all.back();
+    }
+    Recipe by_query, by_hint;
+    REQUIRE(apply_query(by_query, "reference=" + list));
+    CHECK(by_query.references == all);
+    OIIO::ImageSpec config;
+    config.attribute("srisp:reference", list);
+    REQUIRE(apply_hints(by_hint, config));
+    CHECK(by_hint.references == all);
+
+    const std::string photo = write_photo(folder);
+    std::set<std::string> taken;
+    for (int seed = 0; seed < 40; ++seed) {
+        SrispInput input;
+        const std::string name = photo + ".srisp?seed=" + std::to_string(seed) + "&reference=" + list;
+        taken.insert(open_ours(input, name).get_string_attribute("unprocess:reference"));
+    }
+    CHECK(taken == std::set<std::string>{ "a;b.exr", "b.exr", "x*.exr", "y[1].exr" });
 }
 
 TEST_CASE("a file on disk must hold a recipe or a stub to be ours")
@@ -83,21 +112,20 @@ TEST_CASE("a file on disk must hold a recipe or a stub to be ours")
     CHECK(!is_our_name(folder.file("photo.jpg")));
 }
 
-TEST_CASE("frame numbers replace # and %d in file names")
-{
-    CHECK(with_frame("p.####.json", "0007") == "p.0007.json");
-    CHECK(with_frame("p.#.json", "0012") == "p.12.json");
-    CHECK(with_frame("p%04d.json", "7") == "p0007.json");
-    CHECK(with_frame("p%d.json", "0007") == "p7.json");
-    CHECK(with_frame("p.####.json", "-3") == "p.-003.json");
-    CHECK(with_frame("p.####.json", "0") == "p.0000.json");
-    CHECK(with_frame("p.json", "7") == "p.json");
-    CHECK(with_frame("p.#.json", "") == "p.#.json");
-}
-
 TEST_CASE("a recipe that says nothing to choose by is refused on opening")
 {
     const ScratchFolder folder;
     const std::string photo = write_photo(folder);
     CHECK(has(refusal_of(photo + ".srisp"), "names no reference (a RAW file) and no parameters"));
+}
+
+TEST_CASE("parameters that name no model are refused where none is given, in both directions")
+{
+    const ScratchFolder folder;
+    const std::string photo = write_photo(folder), parameters = folder.file("p.json", to_json(Parameters()));
+    CHECK(has(refusal_of(photo + ".srisp?direction=forward&params=" + parameters),
+              "the parameters name no model, so it must be given (model=)"));
+    CHECK(has(refusal_of(photo + ".srisp?direction=forward&model=default&params=" + parameters),
+              "parameters were chosen with model ''"));
+    CHECK(has(refusal_of(photo + ".srisp?params=" + parameters), "parameters were chosen with model ''"));
 }

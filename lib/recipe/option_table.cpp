@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recipe/option_table.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "base/near_names.h"
+
+namespace srisp {
+
+const std::vector<Option>& option_table()
+{
+    using T = OptionType;
+    constexpr unsigned files = kRecipe | kJob, commands = kUnprocess | kProcess | kParams;
+    // clang-format off
+    static const std::vector<Option> table = {
+        { "reference", kQuery | files, T::references, &Recipe::references, {}, "", "", "" },
+        { "model", kProgram | kQuery | files | commands, T::model, &Recipe::model, {}, "", "NAME",
+          "default, pointwise, or the path of a .safetensors file" },
+        { "params", kProgram | kQuery | kUnprocess | kProcess, T::parameters, &Recipe::parameters, {}, "", "FILE",
+          "the parameters in FILE instead of chosen ones: what --srisp-params or --srisp-save-params wrote, edited or "
+          "not" },
+        { "parameters", files, T::parameters, &Recipe::parameters, {}, "", "", "" },
+        { "input", kProgram | kQuery | files | kUnprocess | kParams, T::choice, &Recipe::input,
+          { "auto", "srgb", "linear" }, "auto", "KIND",
+          "what the photo's values are; auto takes float as linear, integers as sRGB" },
+        { "precision", kProgram | kQuery | files | kUnprocess | kProcess, T::choice, &Recipe::precision,
+          { "float32", "fast" }, "float32", "KIND",
+          "fast is one and a half to nearly two times as fast, with an error well below one code value of 10 bits" },
+        { "hold", files | kUnprocess, T::flag, &Recipe::hold, {}, "0", "1",
+          "keep the first frame's parameters over a sequence, so that nothing flickers" },
+        { "seed", kProgram | kQuery | files | kUnprocess | kParams, T::number, &Recipe::seed, {}, "0", "N",
+          "for the choice among several references" },
+        { "direction", kQuery | files, T::choice, &Recipe::direction, { "reverse", "forward" }, "reverse", "", "" },
+        { "lazy", kQuery, T::flag, &Recipe::lazy, {}, "0", "", "" },
+        { "source", kRecipe, T::path, &Recipe::source, {}, "", "", "" },
+        { "progress", files, T::flag, &Recipe::progress, {}, "0", "", "" },
+        { "notes", files, T::flag, &Recipe::notes, {}, "0", "", "" },
+        { "command", files, T::text, &Recipe::command, {}, "", "", "" },
+        { "action", kJob, T::choice, &Recipe::action, { "apply", "print", "save" }, "apply", "", "" },
+        { "file", kJob, T::text, &Recipe::file, {}, "", "", "" },
+        { "name", kJob, T::text, &Recipe::name, {}, "", "", "" },
+    };
+    // clang-format on
+    return table;
+}
+
+const Option* find_option(Door door, const std::string& key)
+{
+    for (const Option& option : option_table())
+        if (option.doors & door && key == option.key)
+            return &option;
+    return nullptr;
+}
+
+std::vector<std::string> option_keys(Door door)
+{
+    std::vector<std::string> keys;
+    for (const Option& option : option_table())
+        if (option.doors & door)
+            keys.push_back(option.key);
+    return keys;
+}
+
+Expected<nlohmann::json> option_value(const Option& option, const std::string& text)
+{
+    const std::string what = std::string(option.key) + " '" + text + "'";
+    if (option.type == OptionType::flag) {
+        if (text != "0" && text != "1")
+            return Error{ what + " is neither 0 nor 1" };
+        return nlohmann::json(text == "1");
+    }
+    if (option.type == OptionType::number) {
+        std::uint64_t number = 0;
+        const char* const end = text.data() + text.size();
+        const auto [stop, failed] = std::from_chars(text.data(), end, number);
+        if (text.empty() || stop != end || failed != std::errc())
+            return Error{ what + " is not a whole number from 0 to " + std::to_string(UINT64_MAX) };
+        return nlohmann::json(number);
+    }
+    if (option.type == OptionType::choice)
+        if (const auto index = choice_index(option, text); !index)
+            return index.error();
+    return nlohmann::json(text);
+}
+
+Expected<std::size_t> choice_index(const Option& option, const std::string& name)
+{
+    const auto found = std::find(option.values.begin(), option.values.end(), name);
+    if (found == option.values.end())
+        return Error{ std::string("unknown ") + option.key + " '" + name + "'" + near_names(name, option.values) };
+    return std::size_t(found - option.values.begin());
+}
+
+} // namespace srisp
