@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake_choice.h"
+
+#include <algorithm>
+#include <future>
+
+#include <srisp/neutral_rendition.h>
+#include <srisp/select.h>
+#include <srisp/thumbnail.h>
+
+#include "../common/failure.h"
+#include "../common/interrupt.h"
+#include "base/file_bytes.h"
+#include "photo/photo_reader.h"
+
+namespace srisp::tool {
+
+namespace {
+
+constexpr int kTilesPerSide = 4, kTileSize = 96;
+
+/// The part `index` of `size` pixels, in the middle of its share.
+void middle_of_share(int size, int index, int& from, int& to)
+{
+    const int first = size * index / kTilesPerSide, last = size * (index + 1) / kTilesPerSide;
+    const int length = std::min(last - first, kTileSize);
+    from = first + (last - first - length) / 2;
+    to = from + length;
+}
+
+PhotoSample empty_sample(const std::string& name, int width, int height)
+{
+    PhotoSample sample{ name, width, height, {}, {} };
+    for (int row = 0; row < kTilesPerSide; ++row)
+        for (int column = 0; column < kTilesPerSide; ++column) {
+            Roi roi;
+            middle_of_share(width, column, roi.x0, roi.x1);
+            middle_of_share(height, row, roi.y0, roi.y1);
+            if (roi.x0 == roi.x1 || roi.y0 == roi.y1)
+                continue; // fewer pixels than parts
+            const Roi held{ std::max(roi.x0 - PhotoSample::kHalo, 0), std::min(roi.x1 + PhotoSample::kHalo, width),
+                            std::max(roi.y0 - PhotoSample::kHalo, 0), std::min(roi.y1 + PhotoSample::kHalo, height) };
+            sample.tiles.push_back({ roi, held, {} });
+        }
+    return sample;
+}
+
+/// `rows`: rows y0 and below of the whole width.
+void add_rows(PhotoSample& sample, ImageView rows, int y0)
+{
+    for (PhotoSample::Tile& tile : sample.tiles)
+        for (int y = std::max(y0, tile.held.y0); y < std::min(y0 + rows.height, tile.held.y1); ++y)
+            tile.rgb.insert(tile.rgb.end(), rows.pixel(tile.held.x0, y - y0), rows.pixel(tile.held.x1, y - y0));
+}
+
+} // namespace
+
+PhotoSample read_photo_sample(const std::string& path)
+{
+    PhotoFile photo = require(PhotoFile::open(path));
+    PhotoSample sample = empty_sample(path, photo.width(), photo.height());
+    ThumbnailBuilder builder(sample.width, sample.height);
+    require(photo.reader().read_all([&](ImageView rows, int y0) {
+        check_interrupt();
+        builder.add_rows(rows);
+        add_rows(sample, rows, y0);
+        return Status();
+    }));
+    sample.thumbnail = builder.finish(photo.orientation());
+    return sample;
+}
+
+PhotoSample sample_of_thumbnail(const Thumbnail& picture, const std::string& name)
+{
+    PhotoSample sample = empty_sample(name, kThumbnailSize, kThumbnailSize);
+    add_rows(sample, picture.view(), 0);
+    sample.thumbnail = picture;
+    return sample;
+}
+
+namespace {
+
+constexpr std::size_t kLargestParameters = 1 << 20;
+const char kFullModel[] = "default";
+
+std::shared_ptr<const Model> pointwise_model(const std::string& name)
+{
+    auto model = require(Model::load(name));
+    if (model->kernel_size() != 1)
+        fail("model '" + name + "' looks at " + std::to_string(model->kernel_size()) + " x " +
+             std::to_string(model->kernel_size()) +
+             " pixels, and a colour transform sees one: needs a pointwise model (kernel size 1; 'pointwise' is one)");
+    return model;
+}
+
+Parameters given_parameters(const std::string& path, const Model& model)
+{
+    auto text = read_head(path, kLargestParameters);
+    if (!text)
+        fail("parameters '" + path + "': " + text.error().message);
+    const Parameters parameters = require(parameters_from_json(*text, "'" + path + "'"));
+    if (const Status fits = check_parameters(parameters, model); !fits)
+        fail("parameters '" + path + "': " + fits.error().message +
+             " (srisptool PHOTO --srisp-params:model=pointwise REFERENCE prints such)");
+    return parameters;
+}
+
+Parameters chosen_parameters(const Model& model, const Thumbnail& photo, const Reference& reference)
+{
+    Parameters parameters = require(select(model, photo, reference.thumbnail));
+    parameters.reference_name = reference.name;
+    parameters.reference_hash = reference.hash;
+    return parameters;
+}
+
+} // namespace
+
+BakeChoice make_choice(const BakeOptions& options)
+{
+    BakeChoice choice;
+    choice.pointwise.model = pointwise_model(options.model);
+    if (!options.parameters.empty())
+        choice.pointwise.parameters = given_parameters(options.parameters, *choice.pointwise.model);
+    auto reference = std::async(std::launch::async, [&] {
+        return options.reference.empty() ? Expected<std::shared_ptr<const Reference>>(nullptr)
+                                         : load_reference(options.reference);
+    });
+    if (!options.source.empty())
+        choice.photo = read_photo_sample(options.source);
+    choice.reference = require(reference.get());
+    check_interrupt();
+    if (!choice.reference)
+        return choice;
+    if (!choice.photo) {
+        choice.photo = sample_of_thumbnail(neutral_rendition(*choice.reference), "the reference's neutral rendition");
+        choice.photo_is_rendition = true;
+    }
+    auto full = std::async(std::launch::async, [&]() -> std::optional<Chosen> {
+        const auto model = Model::load(kFullModel);
+        if (!model || (*model)->kernel_size() == 1)
+            return {};
+        return Chosen{ *model, chosen_parameters(**model, choice.photo->thumbnail, *choice.reference) };
+    });
+    if (options.parameters.empty())
+        choice.pointwise.parameters =
+            chosen_parameters(*choice.pointwise.model, choice.photo->thumbnail, *choice.reference);
+    choice.full = full.get();
+    return choice;
+}
+
+} // namespace srisp::tool

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <srisp/apply.h>
+#include <srisp/ocio_transform.h>
+
+#include "../common/common_options.h"
+
+namespace srisp::tool {
+
+/// What the command line asks for.
+struct BakeOptions : CommonOptions {
+    std::string reference, source, parameters, model = "pointwise", output;
+    std::string direction; ///< of a single file: "unprocess" or "process"
+    int lut_size = kDefaultLut;
+    std::string fragment;    ///< a config to be extended
+    std::string linear_srgb; ///< the name of that colour space in it; empty: found by itself
+    bool cube = false, watch = false;
+};
+
+/// Makes the parser; it fills `options`.
+void describe_options(CLI::App& app, BakeOptions& options);
+
+/// Throws Failure where options contradict each other or what is needed is missing.
+void check_options(const BakeOptions& options);
+
+/// What srispbake --help prints.
+extern const char kHelp[];
+
+/// One file to be written.
+struct OutputName {
+    std::string path;
+    Direction direction;
+    bool cube; ///< .cube instead of .clf
+};
+
+/// Whether -o names one file (".clf", ".cube") instead of what a pair of names starts with.
+bool is_single_file(const std::string& output);
+
+/// "unprocess" or "process".
+const char* direction_name(Direction direction);
+
+/// The files that are asked for. `output`: as -o has it, or empty: beside the reference, or in the folder
+/// SRISP_BAKE_PATH where the reference's cannot be written to. Throws Failure: no folder to write to.
+std::vector<OutputName> output_names(const std::string& reference, const std::string& output,
+                                     const std::string& direction, bool cube);
+
+/// Throws Failure if the file at `path` is a bake of another reference than `reference` (an absolute path): in
+/// SRISP_BAKE_PATH those of two folders may have one name.
+void refuse_bake_of_another(const std::string& path, const std::string& reference);
+
+/// The line of a bake's description that tells its reference: "Reference: /plates/ref.dng".
+std::string reference_line(const std::string& reference);
+
+} // namespace srisp::tool

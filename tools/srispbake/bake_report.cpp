@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake_report.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "../common/shell_quote.h"
+
+namespace srisp::tool {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string size_text(const ErrorSize& error)
+{
+    char text[80];
+    std::snprintf(text, sizeof text, "largest %.2g, mean %.2g", error.largest, error.mean());
+    return text;
+}
+
+/// What SRISP_REFERENCE must be for a file to be found: its path without ".unprocess.clf". "" for other names.
+std::string reference_value(const std::string& path)
+{
+    const std::string end = ".unprocess.clf";
+    if (path.size() <= end.size() || path.compare(path.size() - end.size(), end.size(), end) != 0)
+        return {};
+    std::error_code error;
+    return std::filesystem::absolute(path.substr(0, path.size() - end.size()), error).lexically_normal().string();
+}
+
+ordered_json json_of(const std::optional<ErrorSize>& error)
+{
+    if (!error)
+        return nullptr;
+    return { { "largest", error->largest }, { "mean", error->mean() } };
+}
+
+std::string value_of_variable(const BakeSummary& summary)
+{
+    return summary.files.empty() ? "" : reference_value(summary.files[0].name.path);
+}
+
+} // namespace
+
+std::vector<std::string> error_sentences(const BakeErrors& errors, const BakeChoice& choice, Direction direction)
+{
+    std::string pointwise = "Error against the pointwise pipeline: over a grid of colours " + size_text(errors.grid);
+    if (errors.photo)
+        pointwise += "; over " + choice.photo->name + " " + size_text(*errors.photo);
+    std::vector<std::string> sentences = { pointwise + "." };
+    if (errors.full)
+        sentences.push_back("Difference to the full pipeline (model " + choice.full->model->name() + ") over " +
+                            choice.photo->name + ": " + size_text(*errors.full) +
+                            (direction == Direction::reverse ? "." : ", each from its own RAW-like image."));
+    return sentences;
+}
+
+std::string summary_text(const BakeSummary& summary)
+{
+    std::string text;
+    for (const BakeReport& file : summary.files) {
+        char size[32];
+        std::snprintf(size, sizeof size, " (%.1f MB)\n", static_cast<double>(file.bytes) / 1e6);
+        text += file.name.path + size;
+        for (const std::string& sentence : file.sentences)
+            text += "  " + sentence + "\n";
+    }
+    const std::string value = value_of_variable(summary);
+    return value.empty() ? text : text + "In the host: " + shell_line({ "SRISP_REFERENCE=" + value }) + "\n";
+}
+
+std::string summary_json(const BakeSummary& summary)
+{
+    ordered_json files = ordered_json::array();
+    for (const BakeReport& file : summary.files)
+        files.push_back({ { "path", file.name.path },
+                          { "direction", direction_name(file.name.direction) },
+                          { "bytes", file.bytes },
+                          { "pointwise_grid", json_of(file.errors.grid) },
+                          { "pointwise_photo", json_of(file.errors.photo) },
+                          { "full_photo", json_of(file.errors.full) } });
+    const ordered_json all = { { "SRISP_REFERENCE", value_of_variable(summary) },
+                               { "photo", summary.photo },
+                               { "full_model", summary.full_model },
+                               { "files", files } };
+    return all.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string name_warning(const std::string& reference)
+{
+    const bool dollar = reference.find('$') != std::string::npos;
+    if (!dollar && reference.find('%') == std::string::npos)
+        return {};
+    return std::string("the reference's name has a '") + (dollar ? '$' : '%') +
+           "', which OpenColorIO may take for a variable of the config; a plain name is safer";
+}
+
+} // namespace srisp::tool
