@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <srisp/expected.h>
+#include <srisp/model.h>
 
 #include "base/matrix3.h"
 
@@ -66,5 +67,11 @@ struct ModelData {
 /// Checks the bytes of a model file in full and brings it to float32; name, path and hash stay empty. `where` starts
 /// every message ("model 'm.safetensors'").
 Expected<std::unique_ptr<ModelData>> parse_model(const std::string& bytes, const std::string& where);
+
+/// What a loaded model holds: for the rooms of this library, not for those who use it.
+inline const ModelData& model_data(const Model& model)
+{
+    return *model.m_data;
+}
 
 } // namespace srisp
