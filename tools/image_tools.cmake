@@ -2,7 +2,8 @@
 # The tools that read images.
 set(SRISP_LIBEXEC_DIR ${CMAKE_INSTALL_LIBEXECDIR}/srisp)
 
-# A tool: srisp_image_tool(NAME library...). All but its main.cpp is NAME_parts, which the tests link, too.
+# A tool: srisp_image_tool(NAME library...). All but its main.cpp is NAME_parts, which the tests link, too. The libraries are
+# the rooms that docs/architecture.md allows it.
 function(srisp_image_tool name)
     file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
     list(FILTER sources EXCLUDE REGEX "/(main|output_guard)\\.cpp$")
@@ -14,7 +15,7 @@ function(srisp_image_tool name)
 endfunction()
 
 # No OpenImageIO: it would cost its start-up time twice.
-srisp_image_tool(srisptool srisp_recipe)
+srisp_image_tool(srisptool srisp_base srisp_model srisp_recipe)
 srisp_man_page(srisptool --srisp-help)
 
 # The same program under oiiotool's name, for those who put its folder in front of PATH.
@@ -33,9 +34,10 @@ if(SRISP_SANITIZE)
 endif()
 install(TARGETS output_guard DESTINATION ${CMAKE_INSTALL_LIBDIR}/srisp)
 
-srisp_image_tool(srisppack srisp_static srisp_pack)
+srisp_image_tool(srisppack srisp_base srisp_model srisp_camera srisp_recipe srisp_thumbnail srisp_photo srisp_reference
+    srisp_pack)
 srisp_man_page(srisppack --help)
 
-srisp_image_tool(srispbake srisp_ocio_static)
+srisp_image_tool(srispbake srisp_base srisp_photo srisp_ocio_static)
 target_include_directories(srispbake_parts PRIVATE ${PROJECT_SOURCE_DIR}) # parts of ocio, by their path
 srisp_man_page(srispbake --help)

@@ -110,6 +110,12 @@ def cmake_problems(sources, rows):
     table = [row.name.split("/")[1] for row in rows if row.name.startswith("train/")]
     if line and re.findall(r"\w+", line[1]) != table:
         yield "lib/train/CMakeLists.txt and the table have the trainer's rooms in another order"
+    tools = re.findall(r"^srisp_image_tool\((\w+) ([^)]*)\)", sources.text("tools/image_tools.cmake"), re.M)
+    for tool, libraries in tools:
+        linked = {library[len("srisp_") :].replace("ocio_static", "ocio") for library in libraries.split()}
+        allowed = {row.name for row in rows if tool in row.others}
+        for room in sorted(linked ^ allowed):
+            yield f"tools/image_tools.cmake and the table disagree whether '{tool}' has '{room}'"
 
 
 def arrow_problems(sources, rows, graph):
@@ -196,6 +202,7 @@ GOOD = {
 """,
     "lib/CMakeLists.txt": "srisp_room(base)\nsrisp_room(photo LINK srisp_base)\n",
     "lib/train/CMakeLists.txt": "# Rooms, lowest first: tensors, network.\n",
+    "tools/image_tools.cmake": "srisp_image_tool(tool srisp_base)\n",
     "lib/include/srisp/expected.h": "#include <string>\n",
     "lib/include/srisp/photo.h": "#include <srisp/expected.h>\n",
     "lib/base/files.h": "#include <srisp/expected.h>\n",
@@ -297,6 +304,11 @@ CASES = [
         "the build has the trainer's rooms in the table's order",
         {"lib/train/CMakeLists.txt": "# Rooms, lowest first: network, tensors.\n"},
         "another order",
+    ),
+    (
+        "a tool links the rooms that the table allows it",
+        {"tools/image_tools.cmake": "srisp_image_tool(tool srisp_base srisp_photo)\n"},
+        "disagree whether 'tool' has 'photo'",
     ),
     ("a page without the table is found", {"docs/architecture.md": "# Rooms\n"}, "no table"),
 ]

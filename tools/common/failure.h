@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
+#include <utility>
+
+#include <srisp/expected.h>
 
 namespace srisp::tool {
 
@@ -22,5 +26,24 @@ constexpr int kExitUsage = 2;
 {
     throw Failure{ kExitUsage, message };
 }
+
+/// The value, or a Failure with the error's message.
+template<class T> T require(Expected<T> result)
+{
+    if (!result)
+        fail(result.error().message);
+    return std::move(*result);
+}
+
+inline void require(const Status& status)
+{
+    if (!status)
+        fail(status.error().message);
+}
+
+/// What a tool's main() returns: the exit code of `body`, or that of the Failure it throws, whose message is printed
+/// on stderr. After Interrupted, the program ends as the signal would have ended it. Of the message of any other
+/// exception the first line is printed; LibTorch appends a stack trace.
+int run_tool(const char* name, const std::function<int()>& body);
 
 } // namespace srisp::tool

@@ -8,21 +8,78 @@
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
-#include "../common/require.h"
+#include "bake_choice.h"
+#include "bake_options.h"
 #include "base/output_file.h"
-#include "cube_file.h"
 #include "ocio/src/clf_text.h"
 #include "ocio/src/ocio_group.h"
 #include "ocio/src/pipeline_operators.h"
 
 namespace srisp::tool {
 
+namespace OCIO = OCIO_NAMESPACE;
+
 namespace {
 
-std::string size_text(const ErrorSize& error)
+std::string one_line(std::string text)
 {
-    char text[80];
-    std::snprintf(text, sizeof text, "largest %.2g, mean %.2g", error.largest, error.mean());
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == '"')
+            c = ' ';
+    return text;
+}
+
+/// One table of `size`³ colours over [0,1]³ for the whole pipeline, for programs that know nothing else.
+class CubeTable {
+public:
+    /// Throws Failure.
+    CubeTable(const Chosen& chosen, Direction direction, int size);
+
+    /// What such a program does with it, tetrahedral.
+    OCIO::ConstTransformRcPtr transform() const;
+    /// A .cube file; each line of `comments` becomes a comment. [Adobe Cube LUT 1.0]
+    std::string text(const std::string& title, const std::vector<std::string>& comments) const;
+
+private:
+    int m_size;
+    std::vector<float> m_rgb; ///< red runs fastest
+};
+
+CubeTable::CubeTable(const Chosen& chosen, Direction direction, int size) : m_size(size)
+{
+    for (int b = 0; b < size; ++b)
+        for (int g = 0; g < size; ++g)
+            for (int r = 0; r < size; ++r)
+                for (const int i : { r, g, b })
+                    m_rgb.push_back(float(i) / float(size - 1));
+    const MutableImageView colors{ m_rgb.data(), size * size, size, 3, std::ptrdiff_t(3) * size * size };
+    require(require(Applier::create(*chosen.model, chosen.parameters, direction))->run(colors, colors));
+}
+
+OCIO::ConstTransformRcPtr CubeTable::transform() const
+{
+    auto lut = OCIO::Lut3DTransform::Create(m_size);
+    lut->setInterpolation(OCIO::INTERP_TETRAHEDRAL);
+    const float* rgb = m_rgb.data();
+    for (int b = 0; b < m_size; ++b)
+        for (int g = 0; g < m_size; ++g)
+            for (int r = 0; r < m_size; ++r, rgb += 3)
+                lut->setValue(r, g, b, rgb[0], rgb[1], rgb[2]);
+    return lut;
+}
+
+std::string CubeTable::text(const std::string& title, const std::vector<std::string>& comments) const
+{
+    std::string text;
+    for (const std::string& comment : comments)
+        text += "# " + one_line(comment) + "\n";
+    text += "TITLE \"" + one_line(title) + "\"\nLUT_3D_SIZE " + std::to_string(m_size) + "\n";
+    char line[64];
+    for (std::size_t i = 0; i < m_rgb.size(); i += 3) {
+        std::snprintf(line, sizeof line, "%.7g %.7g %.7g\n", double(m_rgb[i]), double(m_rgb[i + 1]),
+                      double(m_rgb[i + 2]));
+        text += line;
+    }
     return text;
 }
 
@@ -33,27 +90,13 @@ std::string absolute_path(const std::string& path)
     return error ? path : absolute.string();
 }
 
-std::string title(const Choice& choice, Direction direction)
+std::string title(const BakeChoice& choice, Direction direction)
 {
     const std::string& name = choice.pointwise.parameters.reference_name;
     return std::string("srisp ") + direction_name(direction) + (name.empty() ? "" : " as " + name);
 }
 
-/// One for the pointwise pipeline and, where it was measured, one for the full one.
-std::vector<std::string> error_sentences(const BakeErrors& errors, const Choice& choice, Direction direction)
-{
-    std::string pointwise = "Error against the pointwise pipeline: over a grid of colours " + size_text(errors.grid);
-    if (errors.photo)
-        pointwise += "; over " + choice.photo->name + " " + size_text(*errors.photo);
-    std::vector<std::string> sentences = { pointwise + "." };
-    if (errors.full)
-        sentences.push_back("Difference to the full pipeline (model " + choice.full->model->name() + ") over " +
-                            choice.photo->name + ": " + size_text(*errors.full) +
-                            (direction == Direction::reverse ? "." : ", each from its own RAW-like image."));
-    return sentences;
-}
-
-std::vector<std::string> descriptions(const Options& options, const Choice& choice, Direction direction,
+std::vector<std::string> descriptions(const BakeOptions& options, const BakeChoice& choice, Direction direction,
                                       const std::vector<std::string>& sentences)
 {
     const Parameters& parameters = choice.pointwise.parameters;
@@ -75,13 +118,13 @@ struct Baked {
     std::string text;
 };
 
-BakeReport measured(const OutputName& name, const OCIO_NAMESPACE::ConstTransformRcPtr& transform, const Choice& choice)
+BakeReport measured(const OutputName& name, const OCIO::ConstTransformRcPtr& transform, const BakeChoice& choice)
 {
     const BakeErrors errors = measure_errors(transform, choice, name.direction);
     return { name, 0, errors, error_sentences(errors, choice, name.direction) };
 }
 
-Baked bake_clf(const OutputName& name, const Options& options, const Choice& choice)
+Baked bake_clf(const OutputName& name, const BakeOptions& options, const BakeChoice& choice)
 {
     const auto operators = require(
         pipeline_operators(*choice.pointwise.model, choice.pointwise.parameters, name.direction, options.lut_size));
@@ -93,7 +136,7 @@ Baked bake_clf(const OutputName& name, const Options& options, const Choice& cho
     return baked;
 }
 
-Baked bake_cube(const OutputName& name, const Options& options, const Choice& choice)
+Baked bake_cube(const OutputName& name, const BakeOptions& options, const BakeChoice& choice)
 {
     const CubeTable table(choice.pointwise, name.direction, options.lut_size);
     check_interrupt();
@@ -125,11 +168,11 @@ void write_files(std::vector<Baked>& files)
 
 } // namespace
 
-BakeSummary bake(const Options& options)
+BakeSummary bake(const BakeOptions& options)
 {
     const std::vector<OutputName> names =
         output_names(options.reference, options.output, options.direction, options.cube);
-    const Choice choice = make_choice(options);
+    const BakeChoice choice = make_choice(options);
     if (!options.reference.empty() && options.output.empty())
         for (const OutputName& name : names)
             if (!name.cube)

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "../common/failure.h"
 #include "../common/interrupt.h"
-#include "../common/require.h"
 
 namespace srisp::tool {
 
@@ -117,7 +117,7 @@ void ErrorSize::add(const std::vector<float>& a, const std::vector<float>& b)
     values += static_cast<std::int64_t>(a.size());
 }
 
-BakeErrors measure_errors(const OCIO::ConstTransformRcPtr& transform, const Choice& choice, Direction direction)
+BakeErrors measure_errors(const OCIO::ConstTransformRcPtr& transform, const BakeChoice& choice, Direction direction)
 {
     const Bake bake(transform);
     const Renderer pointwise(choice.pointwise, direction), reverse(choice.pointwise, Direction::reverse);

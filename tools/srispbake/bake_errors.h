@@ -8,7 +8,7 @@
 #include <OpenColorIO/OpenColorIO.h>
 #include <srisp/apply.h>
 
-#include "choice.h"
+#include "bake_choice.h"
 
 namespace srisp::tool {
 
@@ -30,6 +30,7 @@ struct BakeErrors {
 };
 
 /// Applies the bake as a host does (CPU, default optimisation). Throws Failure.
-BakeErrors measure_errors(const OCIO_NAMESPACE::ConstTransformRcPtr& bake, const Choice& choice, Direction direction);
+BakeErrors measure_errors(const OCIO_NAMESPACE::ConstTransformRcPtr& bake, const BakeChoice& choice,
+                          Direction direction);
 
 } // namespace srisp::tool

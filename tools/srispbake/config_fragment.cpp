@@ -11,9 +11,8 @@
 #include "base/file_bytes.h"
 #include "base/output_file.h"
 #include "base/shared_folder.h"
-#include "config_entries.h"
+#include "config_text.h"
 #include "linear_srgb.h"
-#include "yaml_sections.h"
 
 namespace srisp::tool {
 

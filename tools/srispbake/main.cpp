@@ -1,27 +1,72 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <sys/stat.h>
+
 #include <chrono>
 #include <cstdio>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include <OpenImageIO/imageio.h>
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
-#include "../common/run_tool.h"
 #include "bake.h"
 #include "config_fragment.h"
-#include "help.h"
-#include "report.h"
-#include "watch.h"
 
 using namespace srisp;
 using namespace srisp::tool;
 
 namespace {
 
+/// Tells when one of some files was changed, replaced, removed or came back.
+class FileWatch {
+public:
+    explicit FileWatch(std::vector<std::string> paths);
+
+    /// True once for each change, when the files were the same for two calls in a row: what is still being written is
+    /// waited for.
+    bool changed();
+
+private:
+    std::string state() const;
+
+    std::vector<std::string> m_paths;
+    std::string m_reported, m_last;
+};
+
+FileWatch::FileWatch(std::vector<std::string> paths)
+    : m_paths(std::move(paths)), m_reported(state()), m_last(m_reported)
+{
+}
+
+std::string FileWatch::state() const
+{
+    std::string text;
+    for (const std::string& path : m_paths) {
+        struct stat s;
+        if (::stat(path.c_str(), &s) == 0)
+            text += std::to_string(s.st_dev) + " " + std::to_string(s.st_ino) + " " + std::to_string(s.st_size) + " " +
+                    std::to_string(s.st_mtim.tv_sec) + "." + std::to_string(s.st_mtim.tv_nsec);
+        text += "\n";
+    }
+    return text;
+}
+
+bool FileWatch::changed()
+{
+    const std::string now = state();
+    const bool steady = now == m_last;
+    m_last = now;
+    if (!steady || now == m_reported)
+        return false;
+    m_reported = now;
+    return true;
+}
+
 constexpr auto kLookEvery = std::chrono::milliseconds(250);
 
-void bake_once(const Options& options)
+void bake_once(const BakeOptions& options)
 {
     const BakeSummary summary = bake(options);
     if (!options.quiet)
@@ -30,7 +75,7 @@ void bake_once(const Options& options)
 }
 
 /// What fails while watching is said, and watching goes on: files come and go while others work on them.
-[[noreturn]] void watch(const Options& options)
+[[noreturn]] void watch(const BakeOptions& options)
 {
     std::vector<std::string> paths;
     for (const std::string& path : { options.reference, options.source, options.parameters })
@@ -52,7 +97,7 @@ void bake_once(const Options& options)
     }
 }
 
-int run(const Options& options)
+int run(const BakeOptions& options)
 {
     check_options(options);
     if (!options.fragment.empty()) {
@@ -76,7 +121,7 @@ int run(const Options& options)
 int main(int argc, char** argv)
 {
     return run_tool("srispbake", [&] {
-        Options options;
+        BakeOptions options;
         CLI::App app;
         describe_options(app, options);
         return parse_options(app, options, "srispbake", kHelp, argc, argv) ? run(options) : 0;

@@ -5,8 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "../common/failure.h"
-#include "../common/require.h"
-#include "../common/run_tool.h"
 #include "base/progress.h"
 #include "evaluation.h"
 #include "model/model_files.h"

@@ -6,7 +6,6 @@
 
 #include "../common/failure.h"
 #include "base/near_names.h"
-#include "reflectance.h"
 #include "spectra.h"
 
 namespace srisp::tool {

@@ -24,4 +24,9 @@ Roi stored_crop(const Roi& upright, int width, int height, int orientation);
 /// [3, size, size] from interleaved values in [0,1], as a pack holds them.
 void append_pixels(const std::vector<float>& rgb, std::vector<std::uint16_t>& pixels);
 
+/// The largest rectangle of an image (interleaved RGB) that holds no masked pixel. Masked is what lies in a block of 3
+/// × 3 pixels that are exactly zero in all channels: single zeros are dark pixels. The whole image where there is no
+/// such block.
+Roi largest_unmasked_part(const std::vector<float>& rgb, int width, int height);
+
 } // namespace srisp::tool

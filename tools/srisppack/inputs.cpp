@@ -74,7 +74,7 @@ Kind kind_of(const std::string& path, Role role)
 /// Sorts files into `inputs`.
 class Finder {
 public:
-    Finder(const Options& options, Inputs& inputs) : m_options(options), m_inputs(inputs) {}
+    Finder(const PackOptions& options, Inputs& inputs) : m_options(options), m_inputs(inputs) {}
 
     void add(const std::string& input, Role role)
     {
@@ -143,7 +143,7 @@ private:
                 .push_back(std::move(image));
     }
 
-    const Options& m_options;
+    const PackOptions& m_options;
     Inputs& m_inputs;
 };
 
@@ -161,7 +161,7 @@ void choose_one_for_validation(std::vector<ImageInput>& images)
 
 } // namespace
 
-Inputs find_inputs(const Options& options)
+Inputs find_inputs(const PackOptions& options)
 {
     Inputs inputs;
     Finder finder(options, inputs);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "manifest.h"
-#include "options.h"
+#include "pack_options.h"
 
 namespace srisp::tool {
 
@@ -28,6 +28,6 @@ struct Inputs {
 
 /// Looks through folders, and judges files by their first bytes. Fails: an input that does not exist, two folders of
 /// cameras, nothing to pack.
-Inputs find_inputs(const Options& options);
+Inputs find_inputs(const PackOptions& options);
 
 } // namespace srisp::tool

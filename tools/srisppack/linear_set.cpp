@@ -13,7 +13,6 @@
 #include "crops.h"
 #include "model/safetensors_header.h"
 #include "thumbnail/area_squasher.h"
-#include "unmasked_part.h"
 
 namespace srisp::tool {
 

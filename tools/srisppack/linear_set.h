@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "manifest.h"
-#include "pack_task.h"
+#include "pack_tasks.h"
 
 namespace srisp::tool {
 

@@ -5,14 +5,13 @@
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
-#include "../common/run_tool.h"
-#include "help.h"
+#include "pack_options.h"
 #include "pack_run.h"
 
 using namespace srisp;
 using namespace srisp::tool;
 
-static int run(const Options& options)
+static int run(const PackOptions& options)
 {
     if (options.inputs.empty() && options.photos.empty() && options.raws.empty() && options.cameras.empty())
         fail_usage("no input is given (srisppack --help shows how)");
@@ -33,7 +32,7 @@ static int run(const Options& options)
 int main(int argc, char** argv)
 {
     return run_tool("srisppack", [&] {
-        Options options;
+        PackOptions options;
         CLI::App app;
         describe_options(app, options);
         return parse_options(app, options, "srisppack", kHelp, argc, argv) ? run(options) : 0;

@@ -3,25 +3,105 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
 
 #include <srisp/image.h>
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
-#include "../common/require.h"
+#include "base/parallel.h"
+#include "base/progress.h"
 #include "camera_folder.h"
+#include "inputs.h"
 #include "linear_set.h"
-#include "photo_task.h"
-#include "raw_task.h"
+#include "pack/training_pack_index.h"
+#include "pack/training_pack_writer.h"
+#include "pack_tasks.h"
+#include "summary.h"
 
 namespace srisp::tool {
 
 namespace {
 
+constexpr std::size_t kBatchBytes = 128u << 20;
+constexpr std::size_t kLargestBatch = 64;
 constexpr std::size_t kListedFailures = 20;
 
+/// Counts what is done over all parts.
+struct Progress {
+    ProgressMeter& meter;
+    std::int64_t done = 0;
+};
+
+std::size_t batch_size(const CropSettings& settings)
+{
+    const std::size_t scene =
+        std::size_t(settings.crops + 1) * 3 * sizeof(std::uint16_t) * settings.size * settings.size;
+    return std::clamp<std::size_t>(kBatchBytes / scene, 2, kLargestBatch);
+}
+
+Expected<PackedScene> run_task(const PackTask& task)
+{
+    if (pending_interrupt())
+        return Error{ "interrupted" };
+    try {
+        return task.run();
+    } catch (const std::exception& error) {
+        return Error{ "'" + task.name + "': " + error.what() };
+    }
+}
+
+std::vector<Expected<PackedScene>> run_batch(const std::vector<PackTask>& tasks, std::size_t first, std::size_t count,
+                                             int threads)
+{
+    std::vector<Expected<PackedScene>> results(count, PackedScene());
+    parallel_tasks(static_cast<std::int64_t>(count), threads,
+                   [&](std::int64_t i) { results[std::size_t(i)] = run_task(tasks[first + std::size_t(i)]); });
+    check_interrupt();
+    return results;
+}
+
+void count(const PackedScene& packed, PartReport& report)
+{
+    const PackEntry& image = packed.scene.common;
+    ++report.scenes;
+    report.images += int(packed.scene.crops.size());
+    report.open += image.open;
+    report.validation += image.validation;
+    report.enlarged += packed.enlarged;
+    ++report.licences[image.licence];
+    ++report.groups[image.group];
+}
+
+/// Runs the tasks on all threads and writes their images in the order of the tasks, a batch at a time: memory does not
+/// grow with their number. Throws Interrupted; fails when the disk does.
+PartReport pack_images(const std::vector<PackTask>& tasks, PackImagesWriter& writer, const CropSettings& settings,
+                       int threads, Progress& progress)
+{
+    PartReport report;
+    report.size = settings.size;
+    for (std::size_t first = 0; first < tasks.size(); first += batch_size(settings)) {
+        const std::size_t batch = std::min(batch_size(settings), tasks.size() - first);
+        for (const Expected<PackedScene>& packed : run_batch(tasks, first, batch, threads)) {
+            if (!packed) {
+                report.failures.push_back(packed.error().message);
+            } else if (!packed->left_out.empty()) {
+                ++report.left_out[packed->left_out];
+            } else {
+                if (const Status status = writer.add(packed->scene, packed->pixels); !status)
+                    fail(status.error().message);
+                count(*packed, report);
+            }
+        }
+        progress.meter.show(progress.done += std::int64_t(batch));
+    }
+    return report;
+}
+
 /// Where there are only sets, their own size: enlarging adds nothing.
-int choose_raw_size(const Options& options, const Inputs& inputs)
+int choose_raw_size(const PackOptions& options, const Inputs& inputs)
 {
     if (options.raw_size > 0)
         return options.raw_size;
@@ -68,7 +148,7 @@ void judge(const PartReport& report, const char* what, bool strict, ProgressMete
         std::fprintf(stderr, "srisppack: %zu %s cannot be read and are left out\n", failed, what);
 }
 
-nlohmann::json settings_of(const Options& options, int raw_size)
+nlohmann::json settings_of(const PackOptions& options, int raw_size)
 {
     return { { "size", options.size },
              { "raw_size", raw_size },
@@ -79,7 +159,7 @@ nlohmann::json settings_of(const Options& options, int raw_size)
 
 } // namespace
 
-Summary make_pack(const Options& options)
+Summary make_pack(const PackOptions& options)
 {
     const Inputs inputs = find_inputs(options);
     auto created = TrainingPackWriter::create(options.output, options.replace);

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "../common/run_tool.h"
+#include "../common/failure.h"
 #include "command_line.h"
 #include "help.h"
 #include "stock_oiiotool.h"

@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "../common/failure.h"
-#include "../common/require.h"
 #include "kept_pairs.h"
 #include "model/model_files.h"
 #include "model_file.h"

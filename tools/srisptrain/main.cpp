@@ -2,7 +2,6 @@
 #include <cstdio>
 
 #include "../common/failure.h"
-#include "../common/run_tool.h"
 #include "process_setup.h"
 #include "train.h"
 

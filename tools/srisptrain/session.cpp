@@ -6,7 +6,6 @@
 #include <torch/cuda.h>
 
 #include "../common/failure.h"
-#include "../common/require.h"
 #include "model/model_files.h"
 #include "model_file.h"
 #include "network.h"

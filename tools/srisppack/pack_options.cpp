@@ -1,7 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "help.h"
+#include "pack_options.h"
+
+#include <srisp/image.h>
+
+#include "pack/training_pack.h"
 
 namespace srisp::tool {
+
+void describe_options(CLI::App& app, PackOptions& options)
+{
+    describe_common_options(app, options);
+    app.add_option("inputs", options.inputs);
+    app.add_option("--photos", options.photos)->allow_extra_args(false);
+    app.add_option("--raws", options.raws)->allow_extra_args(false);
+    app.add_option("--cameras", options.cameras)->allow_extra_args(false);
+    app.add_option("-o,--output", options.output);
+    app.add_option("--size", options.size)->check(CLI::Range(kSmallestPackImage, kLargestPackImage));
+    // RAW images are cut from the thumbnail that is made for references.
+    app.add_option("--raw-size", options.raw_size)->check(CLI::Range(kSmallestPackImage, kThumbnailSize));
+    app.add_option("--crops", options.crops)->check(CLI::Range(0, 100));
+    app.add_option("--seed", options.seed);
+    app.add_flag("--open-only", options.open_only);
+    app.add_flag("--strict", options.strict);
+    app.add_flag("--replace", options.replace);
+}
 
 const char kHelp[] = R"(srisppack -- makes a training pack of photos, RAW files and measured cameras
 
@@ -22,7 +44,7 @@ of them: columns file, use (training, validation), open (yes, no), source,
 licence. Without one all are used, every tenth for validation. Images that
 cannot be read are listed and left out.
 
-Options:
+PackOptions:
   -o, --output PACK  The folder to make
   --photos INPUT     Take INPUT as photos, whatever it holds; may be repeated
   --raws INPUT       Take INPUT as RAW images (linear EXR and TIFF, too)

@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "pack/training_pack_index.h"
 #include <srisp/expected.h>
+
+#include "manifest.h"
+#include "pack/training_pack_index.h"
 
 namespace srisp::tool {
 
@@ -31,5 +33,16 @@ struct CropSettings {
     int crops = 3;  ///< beside the whole
     std::uint64_t seed = 0;
 };
+
+/// Reads a photo (upright, sRGB) and squashes it and its crops. `name`: as the pack calls it. Fails for photos of fewer
+/// than kSmallestPackImage pixels a side.
+PackTask photo_task(const std::string& path, const std::string& name, const Provenance& provenance,
+                    const CropSettings& settings);
+
+/// Reads a RAW file (or a linear image) as srisptool reads references, and squashes it and its crops; white balance and
+/// colour matrix as the file states them. Crops come from the thumbnail of 256 × 256, so `settings.size` is at most
+/// that.
+PackTask raw_task(const std::string& path, const std::string& name, const Provenance& provenance,
+                  const CropSettings& settings);
 
 } // namespace srisp::tool

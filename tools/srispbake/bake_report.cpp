@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report.h"
+#include "bake_report.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -13,6 +13,13 @@ namespace srisp::tool {
 namespace {
 
 using nlohmann::ordered_json;
+
+std::string size_text(const ErrorSize& error)
+{
+    char text[80];
+    std::snprintf(text, sizeof text, "largest %.2g, mean %.2g", error.largest, error.mean());
+    return text;
+}
 
 /// What SRISP_REFERENCE must be for a file to be found: its path without ".unprocess.clf". "" for other names.
 std::string reference_value(const std::string& path)
@@ -37,6 +44,19 @@ std::string value_of_variable(const BakeSummary& summary)
 }
 
 } // namespace
+
+std::vector<std::string> error_sentences(const BakeErrors& errors, const BakeChoice& choice, Direction direction)
+{
+    std::string pointwise = "Error against the pointwise pipeline: over a grid of colours " + size_text(errors.grid);
+    if (errors.photo)
+        pointwise += "; over " + choice.photo->name + " " + size_text(*errors.photo);
+    std::vector<std::string> sentences = { pointwise + "." };
+    if (errors.full)
+        sentences.push_back("Difference to the full pipeline (model " + choice.full->model->name() + ") over " +
+                            choice.photo->name + ": " + size_text(*errors.full) +
+                            (direction == Direction::reverse ? "." : ", each from its own RAW-like image."));
+    return sentences;
+}
 
 std::string summary_text(const BakeSummary& summary)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../../../tools/srispbake/yaml_sections.h"
+#include "../../../tools/srispbake/config_text.h"
 
 #include <doctest/doctest.h>
 

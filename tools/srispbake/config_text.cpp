@@ -1,10 +1,123 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "config_entries.h"
+#include "config_text.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <sstream>
 
+#include "../common/failure.h"
+
 namespace srisp::tool {
+
+namespace {
+
+constexpr std::size_t kIndent = 2; // of the lines that are given
+
+std::string trimmed(const std::string& text)
+{
+    const std::size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
+    return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+bool is_blank_or_comment(const std::string& line)
+{
+    const std::string text = trimmed(line);
+    return text.empty() || text[0] == '#';
+}
+
+/// What may stand for "nothing in here".
+bool is_empty_collection(const std::string& text)
+{
+    return text == "{}" || text == "[]";
+}
+
+std::size_t indent_of(const std::string& line)
+{
+    return line.find_first_not_of(' ');
+}
+
+} // namespace
+
+YamlSections::YamlSections(const std::string& text)
+{
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);)
+        m_lines.push_back(line);
+}
+
+std::size_t YamlSections::find(const std::string& section) const
+{
+    const auto is_section = [&](const std::string& line) { return line.rfind(section + ":", 0) == 0; };
+    return std::size_t(std::find_if(m_lines.begin(), m_lines.end(), is_section) - m_lines.begin());
+}
+
+bool YamlSections::has(const std::string& section) const
+{
+    return find(section) < m_lines.size();
+}
+
+/// After the last line that belongs to it; comments before the next section are that one's.
+std::size_t YamlSections::end_of(std::size_t section) const
+{
+    std::size_t end = section + 1;
+    for (std::size_t i = section + 1; i < m_lines.size(); ++i) {
+        if (is_blank_or_comment(m_lines[i]))
+            continue;
+        const char first = m_lines[i][0];
+        if (first != ' ' && first != '-')
+            break;
+        end = i + 1;
+    }
+    return end;
+}
+
+void YamlSections::append(const std::string& section, const std::vector<std::string>& lines)
+{
+    std::size_t key = find(section);
+    if (key == m_lines.size()) {
+        m_lines.push_back("");
+        m_lines.push_back(section + ":");
+        key = m_lines.size() - 1;
+    }
+    std::string value = trimmed(m_lines[key].substr(section.size() + 1));
+    if (!value.empty() && value[0] == '#')
+        value.clear();
+    std::size_t end = end_of(key), indent = kIndent;
+    if (is_empty_collection(value)) {
+        m_lines[key] = section + ":";
+    } else if (!value.empty()) {
+        fail("section '" + section + "' is written as '" + value.substr(0, 20) +
+             "…'; entries can be added to one with a line for each");
+    } else if (end == key + 2 && is_empty_collection(trimmed(m_lines[key + 1]))) {
+        m_lines.erase(m_lines.begin() + std::ptrdiff_t(key) + 1);
+        end = key + 1;
+    } else {
+        const auto last = m_lines.begin() + std::ptrdiff_t(end);
+        const auto first = std::find_if_not(m_lines.begin() + std::ptrdiff_t(key) + 1, last, is_blank_or_comment);
+        indent = first == last ? kIndent : indent_of(*first);
+    }
+    std::vector<std::string> added;
+    for (const std::string& line : lines)
+        added.push_back(line.empty() ? line : std::string(indent, ' ') + line.substr(kIndent));
+    m_lines.insert(m_lines.begin() + std::ptrdiff_t(end), added.begin(), added.end());
+}
+
+void YamlSections::set(const std::string& section, const std::string& value)
+{
+    const std::string line = section + ": " + value;
+    if (has(section))
+        m_lines[find(section)] = line;
+    else
+        m_lines.insert(m_lines.end(), { "", line });
+}
+
+std::string YamlSections::text() const
+{
+    std::string text;
+    for (const std::string& line : m_lines)
+        text += line + "\n";
+    return text;
+}
 
 namespace {
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run_tool.h"
+#include "failure.h"
 
 #include <cstdio>
 #include <exception>
 #include <string>
 
-#include "failure.h"
 #include "interrupt.h"
 
 namespace srisp::tool {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../../../tools/srisppack/options.h"
+#include "../../../tools/srisppack/pack_options.h"
 
 #include <doctest/doctest.h>
-
-#include "../../../tools/srisppack/help.h"
 
 using namespace srisp;
 using namespace srisp::tool;
@@ -11,7 +9,7 @@ using namespace srisp::tool;
 TEST_CASE("the help names every option of srisppack, and no other")
 {
     CLI::App app;
-    Options options;
+    PackOptions options;
     describe_options(app, options);
     const std::string help = kHelp;
     std::size_t named = 0;

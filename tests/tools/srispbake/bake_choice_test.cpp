@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../../../tools/srispbake/photo_sample.h"
+#include "../../../tools/srispbake/bake_choice.h"
 
 #include <doctest/doctest.h>
 

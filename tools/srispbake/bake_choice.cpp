@@ -1,17 +1,84 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "choice.h"
+#include "bake_choice.h"
 
+#include <algorithm>
 #include <future>
 
 #include <srisp/neutral_rendition.h>
 #include <srisp/select.h>
+#include <srisp/thumbnail.h>
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
-#include "../common/require.h"
 #include "base/file_bytes.h"
+#include "photo/photo_file.h"
 
 namespace srisp::tool {
+
+namespace {
+
+constexpr int kTilesPerSide = 4, kTileSize = 96;
+
+/// The part `index` of `size` pixels, in the middle of its share.
+void middle_of_share(int size, int index, int& from, int& to)
+{
+    const int first = size * index / kTilesPerSide, last = size * (index + 1) / kTilesPerSide;
+    const int length = std::min(last - first, kTileSize);
+    from = first + (last - first - length) / 2;
+    to = from + length;
+}
+
+PhotoSample empty_sample(const std::string& name, int width, int height)
+{
+    PhotoSample sample{ name, width, height, {}, {} };
+    for (int row = 0; row < kTilesPerSide; ++row)
+        for (int column = 0; column < kTilesPerSide; ++column) {
+            Roi roi;
+            middle_of_share(width, column, roi.x0, roi.x1);
+            middle_of_share(height, row, roi.y0, roi.y1);
+            if (roi.x0 == roi.x1 || roi.y0 == roi.y1)
+                continue; // fewer pixels than parts
+            const Roi held{ std::max(roi.x0 - PhotoSample::kHalo, 0), std::min(roi.x1 + PhotoSample::kHalo, width),
+                            std::max(roi.y0 - PhotoSample::kHalo, 0), std::min(roi.y1 + PhotoSample::kHalo, height) };
+            sample.tiles.push_back({ roi, held, {} });
+        }
+    return sample;
+}
+
+/// `rows`: rows y0 and below of the whole width.
+void add_rows(PhotoSample& sample, ImageView rows, int y0)
+{
+    for (PhotoSample::Tile& tile : sample.tiles)
+        for (int y = std::max(y0, tile.held.y0); y < std::min(y0 + rows.height, tile.held.y1); ++y)
+            tile.rgb.insert(tile.rgb.end(), rows.pixel(tile.held.x0, y - y0), rows.pixel(tile.held.x1, y - y0));
+}
+
+} // namespace
+
+PhotoSample read_photo_sample(const std::string& path)
+{
+    PhotoFile photo = require(PhotoFile::open(path));
+    PhotoSample sample = empty_sample(path, photo.width(), photo.height());
+    ThumbnailBuilder builder(sample.width, sample.height);
+    for (int y = 0; y < sample.height; y += photo.band_rows()) {
+        check_interrupt();
+        const int end = std::min(y + photo.band_rows(), sample.height);
+        const float* const rgb = require(photo.read(y, end));
+        const ImageView rows{ rgb, sample.width, end - y, 3, std::ptrdiff_t(3) * sample.width };
+        builder.add_rows(rows);
+        add_rows(sample, rows, y);
+    }
+    sample.thumbnail = builder.finish(photo.orientation());
+    return sample;
+}
+
+PhotoSample sample_of_thumbnail(const Thumbnail& picture, const std::string& name)
+{
+    PhotoSample sample = empty_sample(name, kThumbnailSize, kThumbnailSize);
+    add_rows(sample, picture.view(), 0);
+    sample.thumbnail = picture;
+    return sample;
+}
 
 namespace {
 
@@ -50,9 +117,9 @@ Parameters chosen_parameters(const Model& model, const Thumbnail& photo, const R
 
 } // namespace
 
-Choice make_choice(const Options& options)
+BakeChoice make_choice(const BakeOptions& options)
 {
-    Choice choice;
+    BakeChoice choice;
     choice.pointwise.model = pointwise_model(options.model);
     if (!options.parameters.empty())
         choice.pointwise.parameters = given_parameters(options.parameters, *choice.pointwise.model);

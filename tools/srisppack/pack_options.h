@@ -12,7 +12,7 @@
 namespace srisp::tool {
 
 /// What the command line asks for.
-struct Options : CommonOptions {
+struct PackOptions : CommonOptions {
     std::vector<std::string> inputs;                ///< recognised by what they hold
     std::vector<std::string> photos, raws, cameras; ///< taken as that
     std::string output;
@@ -23,6 +23,9 @@ struct Options : CommonOptions {
 };
 
 /// Makes the parser; it fills `options`.
-void describe_options(CLI::App& app, Options& options);
+void describe_options(CLI::App& app, PackOptions& options);
+
+/// What srisppack --help prints.
+extern const char kHelp[];
 
 } // namespace srisp::tool

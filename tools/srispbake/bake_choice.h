@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <srisp/image.h>
+#include <srisp/model.h>
+#include <srisp/parameters.h>
+#include <srisp/reference.h>
+
+#include "bake_options.h"
 
 namespace srisp::tool {
 
@@ -29,5 +36,23 @@ PhotoSample read_photo_sample(const std::string& path);
 
 /// The same of a picture that is in memory, a thumbnail.
 PhotoSample sample_of_thumbnail(const Thumbnail& picture, const std::string& name);
+
+/// A model and the parameters that it chose or was given.
+struct Chosen {
+    std::shared_ptr<const Model> model;
+    Parameters parameters;
+};
+
+/// Everything that is baked, and what it is compared with.
+struct BakeChoice {
+    Chosen pointwise;
+    std::shared_ptr<const Reference> reference; ///< null where only parameters are given
+    std::optional<PhotoSample> photo;           ///< likewise, unless --source is there
+    bool photo_is_rendition = false;            ///< the reference's own neutral rendition stands in
+    std::optional<Chosen> full;                 ///< `default` with the same photo and reference
+};
+
+/// Loads and chooses what the options ask for. Throws Failure.
+BakeChoice make_choice(const BakeOptions& options);
 
 } // namespace srisp::tool

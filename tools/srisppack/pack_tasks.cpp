@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "raw_task.h"
+#include "pack_tasks.h"
 
 #include <algorithm>
 #include <cctype>
@@ -7,12 +7,91 @@
 
 #include <srisp/reference.h>
 
+#include "../common/interrupt.h"
 #include "base/matrix3.h"
 #include "camera/daylight_matrix.h"
 #include "crops.h"
+#include "photo/photo_file.h"
 #include "thumbnail/area_squasher.h"
 
 namespace srisp::tool {
+
+namespace {
+
+/// One crop on its way.
+struct Squashing {
+    Roi stored;
+    AreaSquasher squasher;
+};
+
+/// The rows of a band that lie in the crop.
+void add_band(Squashing& crop, const float* rgb, int width, int y0, int y1)
+{
+    const int first = std::max(y0, crop.stored.y0), last = std::min(y1, crop.stored.y1);
+    if (first >= last)
+        return;
+    const std::ptrdiff_t row = std::ptrdiff_t(3) * width;
+    crop.squasher.add_rows(
+        { rgb + (first - y0) * row + 3 * crop.stored.x0, crop.stored.x1 - crop.stored.x0, last - first, 3, row });
+}
+
+Status squash(PhotoFile& photo, std::vector<Squashing>& crops)
+{
+    for (int y = 0; y < photo.height(); y += photo.band_rows()) {
+        if (pending_interrupt())
+            return Error{ "interrupted" };
+        const int end = std::min(y + photo.band_rows(), photo.height());
+        const Expected<const float*> rgb = photo.read(y, end);
+        if (!rgb)
+            return rgb.error();
+        for (Squashing& crop : crops)
+            add_band(crop, *rgb, photo.width(), y, end);
+    }
+    return {};
+}
+
+Expected<PackedScene> pack_photo(const std::string& path, const std::string& name, const Provenance& provenance,
+                                 const CropSettings& settings)
+{
+    Expected<PhotoFile> photo = PhotoFile::open(path);
+    if (!photo)
+        return photo.error();
+    const int width = photo->width(), height = photo->height(), orientation = photo->orientation();
+    if (std::min(width, height) < kSmallestPackImage)
+        return Error{ "photo '" + path + "': has " + std::to_string(width) + " x " + std::to_string(height) +
+                      " pixels, at least " + std::to_string(kSmallestPackImage) + " a side are needed" };
+    const bool turned = orientation >= 5 && orientation <= 8;
+    const int upright_width = turned ? height : width, upright_height = turned ? width : height;
+
+    PackedScene packed;
+    packed.enlarged = std::min(width, height) < settings.size;
+    PackEntry& image = packed.scene.common;
+    image.name = name;
+    image.group = image.source = provenance.source;
+    image.licence = provenance.licence;
+    image.open = provenance.open;
+    image.validation = provenance.validation;
+    std::vector<Squashing> crops;
+    for (const Roi& crop :
+         choose_crops(upright_width, upright_height, settings.size, settings.crops, settings.seed, name)) {
+        const Roi stored = stored_crop(crop, width, height, orientation);
+        crops.push_back({ stored, AreaSquasher(stored.x1 - stored.x0, stored.y1 - stored.y0, settings.size) });
+        packed.scene.crops.push_back(relative_crop(crop, upright_width, upright_height));
+    }
+    if (Status status = squash(*photo, crops); !status)
+        return status.error();
+    for (const Squashing& crop : crops)
+        append_pixels(crop.squasher.finish(orientation), packed.pixels);
+    return packed;
+}
+
+} // namespace
+
+PackTask photo_task(const std::string& path, const std::string& name, const Provenance& provenance,
+                    const CropSettings& settings)
+{
+    return { path, [=] { return pack_photo(path, name, provenance, settings); } };
+}
 
 namespace {
 

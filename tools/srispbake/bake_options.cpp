@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake_options.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "../common/failure.h"
+#include "ocio/src/clf_text.h"
+
+namespace srisp::tool {
+
+void describe_options(CLI::App& app, BakeOptions& options)
+{
+    describe_common_options(app, options);
+    app.add_option("--reference", options.reference);
+    app.add_option("--source", options.source);
+    app.add_option("--params", options.parameters);
+    app.add_option("--model", options.model);
+    app.add_option("-o,--output", options.output);
+    app.add_option("--direction", options.direction)->check(CLI::IsMember({ "unprocess", "process" }));
+    app.add_option("--lut-size", options.lut_size)->check(CLI::Range(kSmallestLut, kLargestLut));
+    app.add_option("--fragment", options.fragment);
+    app.add_option("--linear-srgb", options.linear_srgb);
+    app.add_flag("--cube", options.cube);
+    app.add_flag("--watch", options.watch);
+}
+
+void check_options(const BakeOptions& options)
+{
+    if (!options.fragment.empty()) {
+        if (!options.reference.empty() || !options.parameters.empty() || options.watch)
+            fail_usage("--fragment extends a config; --reference, --params and --watch belong to bakes");
+        return;
+    }
+    if (!options.linear_srgb.empty())
+        fail_usage("--linear-srgb belongs to --fragment");
+    if (options.reference.empty() && options.parameters.empty())
+        fail_usage("no reference is given (srispbake --help shows how)");
+    if (options.reference.empty() && options.output.empty())
+        fail_usage("without --reference there is nothing to name the files after: -o NAME");
+    if (!options.direction.empty() && !is_single_file(options.output))
+        fail_usage("--direction belongs to one file: -o FILE.clf or -o FILE.cube");
+    if (options.cube && is_single_file(options.output))
+        fail_usage("--cube belongs to a pair of files; -o FILE.cube makes one");
+    if (options.watch && options.json)
+        fail_usage("--watch never ends, so it prints no JSON");
+}
+
+const char kHelp[] = R"(srispbake -- bakes a reference RAW for hosts of OpenColorIO
+
+Usage: srispbake --reference RAW [--source PHOTO] [options]
+       srispbake --params JSON -o NAME [options]
+       srispbake --fragment CONFIG [-o FILE]
+
+Writes two CLF files beside the reference, RAW.unprocess.clf (photo to RAW-like)
+and RAW.process.clf (back), which the config share/srisp/ocio/srisp.ocio reads
+in any host where the context variable SRISP_REFERENCE is the path of RAW. Where
+that folder cannot be written to, they go to the folder SRISP_BAKE_PATH.
+
+Parameters are chosen for PHOTO; without one, for the picture that a plain
+converter makes of the reference itself. A colour transform sees single pixels,
+so the pointwise model is baked; its errors are printed and written into the
+file: against the pointwise pipeline, over a grid of colours and over the photo,
+and, apart, the difference to the full pipeline (model default).
+
+BakeOptions:
+  --reference RAW     The RAW file to be matched
+  --source PHOTO      The photo to choose for
+  --params JSON       Parameters as srisptool --srisp-params:model=pointwise
+                      prints them, edited or not, instead of choosing
+  --model NAME        Name or path of a pointwise model; pointwise
+  -o, --output NAME   NAME.unprocess.clf and NAME.process.clf instead; or one
+                      file, NAME.clf or NAME.cube
+  --direction WHICH   Of one file: unprocess (without this) or process
+  --cube              .cube files beside the .clf: one table, larger errors
+  --lut-size N        Points along each side of tables, 5 to 129; 65
+  --watch             Bake again when reference, photo, parameters or model
+                      change, until it is interrupted
+  --fragment CONFIG   Add our looks and colour spaces to an OpenColorIO config
+                      (profile version 2), and the neutral bakes to its search
+                      path; all else in it stays as it is
+  --linear-srgb NAME  The colour space of CONFIG that is linear with sRGB
+                      primaries, where it has no usual name
+  --threads N         0: one for each processor; 0
+  --json              What was written, and errors, on stdout as JSON
+  -q, --quiet         Print nothing
+  -h, --help          Print this
+  --version           Print the version
+
+Examples:
+  srispbake --reference plate.dng --source photo.jpg
+  srispbake --reference plate.dng --params look.json --watch
+  srispbake --reference plate.dng -o look.cube --lut-size 33
+  srispbake --fragment studio.ocio
+
+Environment:
+  SRISP_BAKE_PATH   folder for bakes of references in read-only folders
+  SRISP_MODEL_PATH  folders with models, separated by colons
+
+Exit codes: 0, 1 where something failed, 2 for wrong usage; 128 and the signal's
+number where a signal ended it. No incomplete file is left.
+)";
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const char kReferenceLine[] = "Reference: ";
+
+bool ends_with(const std::string& text, const std::string& end)
+{
+    return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/// Where the pair of a reference is named after; the folder can be written to.
+std::string stem_of_reference(const std::string& reference)
+{
+    const fs::path path(reference), folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    if (access(folder.c_str(), W_OK) == 0)
+        return reference;
+    const char* variable = std::getenv("SRISP_BAKE_PATH");
+    if (!variable || !*variable)
+        fail("folder '" + folder.string() +
+             "' cannot be written to; set SRISP_BAKE_PATH to a folder for bakes, or give -o NAME");
+    if (access(variable, W_OK) != 0)
+        fail("neither folder '" + folder.string() + "' nor '" + variable +
+             "' (SRISP_BAKE_PATH) can be written to; give -o NAME");
+    return (fs::path(variable) / path.filename()).string();
+}
+
+} // namespace
+
+bool is_single_file(const std::string& output)
+{
+    return ends_with(output, ".clf") || ends_with(output, ".cube");
+}
+
+const char* direction_name(Direction direction)
+{
+    return direction == Direction::reverse ? "unprocess" : "process";
+}
+
+std::vector<OutputName> output_names(const std::string& reference, const std::string& output,
+                                     const std::string& direction, bool cube)
+{
+    if (is_single_file(output))
+        return { { output, direction == "process" ? Direction::forward : Direction::reverse,
+                   ends_with(output, ".cube") } };
+    const std::string stem = (output.empty() ? stem_of_reference(reference) : output) + ".";
+    std::vector<OutputName> names;
+    for (const bool as_cube : { false, true })
+        for (const Direction each : { Direction::reverse, Direction::forward })
+            if (!as_cube || cube)
+                names.push_back({ stem + direction_name(each) + (as_cube ? ".cube" : ".clf"), each, as_cube });
+    return names;
+}
+
+std::string reference_line(const std::string& reference)
+{
+    return kReferenceLine + reference;
+}
+
+void refuse_bake_of_another(const std::string& path, const std::string& reference)
+{
+    std::ifstream file(path, std::ios::binary);
+    std::string head(16384, '\0');
+    file.read(head.data(), std::streamsize(head.size()));
+    head.resize(std::size_t(file.gcount()));
+    const std::size_t start = head.find(kReferenceLine);
+    if (start == std::string::npos)
+        return;
+    const std::string line = head.substr(start, head.find_first_of("<\n", start) - start);
+    if (line != reference_line(reference) && line != clf_escaped(reference_line(reference)))
+        fail("'" + path + "' is the bake of another reference (" + line.substr(sizeof kReferenceLine - 1) +
+             "); remove it, or give -o NAME");
+}
+
+} // namespace srisp::tool
