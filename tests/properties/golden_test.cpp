@@ -57,7 +57,7 @@ std::vector<float> some_of(PlanarThumbnail& thumbnail, int step)
 
 void check_mixed_kernels(const Golden& golden, const Parameters& parameters)
 {
-    const ModelData& model = golden.model->data();
+    const ModelData& model = model_data(*golden.model);
     for (int l = 0; l < kToneLayers; ++l)
         for (const bool reverse : { true, false }) {
             const ToneDictionary& dictionary = reverse ? model.tone_reverse : model.tone_forward;
@@ -73,7 +73,7 @@ void check_selection(const Golden& golden)
 {
     SelectionTrace trace;
     const Parameters p =
-        select_parameters(golden.model->data(), golden.thumbnail("source"), golden.thumbnail("reference"), &trace);
+        select_parameters(model_data(*golden.model), golden.thumbnail("source"), golden.thumbnail("reference"), &trace);
     if (golden.file.values.count("source_statistics")) {
         check_near(trace.source_statistics, golden, "source_statistics");
         check_near(trace.reference_statistics, golden, "reference_statistics");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <srisp/photo.h>
+#include "photo/photo_converter.h"
 
 #include <cmath>
 #include <limits>

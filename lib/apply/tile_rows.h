@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
+#include <srisp/image.h>
+
 #include "kernels/convolution.h"
+
+// What the runners of the tone map share: a tile, and its rows between the layers and behind the last.
 
 namespace srisp {
 
@@ -53,6 +58,49 @@ private:
     int m_rows, m_channels;
     std::ptrdiff_t m_plane_stride;
     std::vector<float> m_memory;
+};
+
+/// A tile of an image, as the runners of the tone map see it.
+struct ImageTile {
+    Roi roi;
+    int width, height; ///< of the image
+
+    int width_px() const { return roi.x1 - roi.x0; }
+    int clamp_row(int y) const { return std::clamp(y, 0, height - 1); }
+    /// Columns of the tile and `beside` ones on each side, as far as the image goes; relative to the tile's first.
+    int first_column(int beside) const { return std::max(roi.x0 - beside, 0) - roi.x0; }
+    int end_column(int beside) const { return std::min(roi.x1 + beside, width) - roi.x0; }
+
+    /// Repeats the image's edge in a row of which these columns were computed.
+    void replicate_edges(RowRing& ring, int y, int beside) const
+    {
+        const int x0 = first_column(beside), x1 = end_column(beside);
+        ring.replicate_edges(x0, x1, y, roi.x0 + x0 == 0, roi.x0 + x1 == width);
+    }
+};
+
+/// One row that leaves the tone map.
+class ToneMapOutput {
+public:
+    explicit ToneMapOutput(int max_tile_width) : m_stride(RowRing::plane_stride(max_tile_width)), m_values(3 * m_stride)
+    {
+    }
+
+    Planes planes() { return { m_values.data(), m_stride }; }
+
+    /// Holding φ(v), becomes clamp01(v + φ(v)).
+    void add_and_clamp(Planes v, int count)
+    {
+        for (int c = 0; c < 3; ++c)
+            for (int x = 0; x < count; ++x) {
+                float& out = planes().plane(c)[x];
+                out = std::min(std::max(v.plane(c)[x] + out, 0.0f), 1.0f);
+            }
+    }
+
+private:
+    std::ptrdiff_t m_stride;
+    std::vector<float> m_values;
 };
 
 } // namespace srisp

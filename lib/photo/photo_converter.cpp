@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <srisp/photo.h>
+#include "photo/photo_converter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -113,6 +113,25 @@ void bound_values(const float* in, std::int64_t count, float* out, PhotoCounts& 
 }
 
 } // namespace
+
+PhotoCounts& PhotoCounts::operator+=(const PhotoCounts& other)
+{
+    values += other.values;
+    clipped += other.clipped;
+    replaced += other.replaced;
+    return *this;
+}
+
+std::vector<std::string> PhotoCounts::notes() const
+{
+    std::vector<std::string> notes;
+    const std::string of_all = " of " + std::to_string(values) + " colour values ";
+    if (clipped)
+        notes.push_back(std::to_string(clipped) + of_all + "lay outside sRGB's 0 to 1 and were clipped");
+    if (replaced)
+        notes.push_back(std::to_string(replaced) + of_all + "were not numbers and became 0");
+    return notes;
+}
 
 struct PhotoConverter::State {
     ColorChannels channels;
