@@ -5,7 +5,7 @@
 
 #include <OpenImageIO/strutil.h>
 
-#include "base/text_file.h"
+#include "base/file_bytes.h"
 #include "hand_over.h"
 #include "process_state.h"
 

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <srisp/metadata.h>
 
-#include "base/text_file.h"
+#include "base/output_file.h"
 #include "hand_over.h"
 #include "open_name.h"
 #include "recipe/frame_pattern.h"
@@ -48,7 +48,7 @@ Status save_parameters(const Recipe& job, const OIIO::ImageSpec& spec, const std
     // Folders are literal: they may well hold '#' or '%20d'.
     std::filesystem::path file = job.file;
     file.replace_filename(with_frame(file.filename().string(), frame));
-    const Status written = write_text_file(file.string(), to_json(*parameters) + "\n");
+    const Status written = write_output_file(file.string(), to_json(*parameters) + "\n");
     return written ? written : Status(Error{ "parameters " + written.error().message });
 }
 
@@ -139,7 +139,7 @@ Status SrispOutput::finish()
         if (const Status saved = save_parameters(m_job, m_slot->subimages[0][0].spec, m_slot->frame); !saved)
             return saved;
     // A host renames what it wrote, so there must be a file even where nothing is read back.
-    return write_text_file(m_path, stub_text(id));
+    return write_output_file(m_path, stub_text(id));
 }
 
 bool SrispOutput::write_scanline(int y, int z, OIIO::TypeDesc format, const void* data, OIIO::stride_t xstride)

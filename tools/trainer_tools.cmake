@@ -17,17 +17,8 @@ srisp_install_trainer_tool(srispeval)
 add_custom_target(srisp_commit BYPRODUCTS ${CMAKE_CURRENT_BINARY_DIR}/srisp_commit.h
     COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR} -DOUTPUT=${CMAKE_CURRENT_BINARY_DIR}/srisp_commit.h
         -P ${CMAKE_CURRENT_SOURCE_DIR}/srisptrain/commit.cmake VERBATIM)
-add_executable(srisptrain
-    srisptrain/anchor_start.cpp
-    srisptrain/host.cpp
-    srisptrain/kept_pairs.cpp
-    srisptrain/main.cpp
-    srisptrain/model_metadata.cpp
-    srisptrain/options.cpp
-    srisptrain/output_folder.cpp
-    srisptrain/rehearse.cpp
-    srisptrain/session.cpp
-    srisptrain/train.cpp)
+file(GLOB srisptrain_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/srisptrain/*.cpp)
+add_executable(srisptrain ${srisptrain_sources})
 add_dependencies(srisptrain srisp_commit)
 target_include_directories(srisptrain PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
 target_link_libraries(srisptrain PRIVATE srisp_train srisp_tools_common)

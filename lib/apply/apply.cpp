@@ -14,6 +14,8 @@
 
 namespace srisp {
 
+namespace {
+
 /// The pipeline's blocks in one direction, ready to run.
 struct Pipeline {
     std::unique_ptr<const ToneMap> tone_map;
@@ -24,8 +26,6 @@ struct Pipeline {
     bool rebuilds_highlights;        // forward
 };
 
-namespace {
-
 constexpr int kMinTileRows = 16;
 // Rows that are copied at a time where the target is the source: enough for tall tiles, and of wide images some 64 MB.
 constexpr int kMinBandRows = 128, kMaxBandRows = 512;
@@ -33,8 +33,7 @@ constexpr std::ptrdiff_t kBandBytes = std::ptrdiff_t(64) << 20;
 
 /// What is to be computed, and from what.
 struct Job {
-    ImageView source;
-    int source_x, source_y, full_width, full_height;
+    ImagePart source;
     Roi roi;
     MutableImageView target;
 };
@@ -120,7 +119,8 @@ void before_tone_map(const Pipeline& p, Planes row, std::size_t count)
 void run_tile(const Pipeline& p, ToneMapRunner& runner, const Job& job, Roi tile)
 {
     const auto load = [&](int y, int x0, int x1, Planes row) {
-        gather(job.source.pixel(x0 - job.source_x, y - job.source_y), job.source.x_stride, x1 - x0, row);
+        const ImagePart& source = job.source;
+        gather(source.pixels.pixel(x0 - source.x, y - source.y), source.pixels.x_stride, x1 - x0, row);
         if (p.direction == Direction::forward)
             before_tone_map(p, row, x1 - x0);
     };
@@ -129,7 +129,7 @@ void run_tile(const Pipeline& p, ToneMapRunner& runner, const Job& job, Roi tile
             after_tone_map(p, row, tile.x1 - tile.x0);
         scatter(row, tile.x1 - tile.x0, job.target.pixel(tile.x0 - job.roi.x0, y - job.roi.y0), job.target.x_stride);
     };
-    runner.run(tile, job.full_width, job.full_height, load, store);
+    runner.run(tile, job.source.full_width, job.source.full_height, load, store);
 }
 
 /// How much of several jobs is done; asks the caller's progress function from the caller's thread only.
@@ -178,8 +178,10 @@ void run_tiles(const Pipeline& p, const Job& job, int threads, Progress& progres
 void run_in_place(const Pipeline& p, const Job& job, int threads, Progress& progress)
 {
     const int halo = p.tone_map->halo();
-    const int first_row = std::max(job.roi.y0 - halo, 0), last_row = std::min(job.roi.y1 + halo, job.full_height);
-    const std::ptrdiff_t row_floats = std::ptrdiff_t(3) * job.source.width;
+    const ImageView& pixels = job.source.pixels;
+    const int first_row = std::max(job.roi.y0 - halo, 0);
+    const int last_row = std::min(job.roi.y1 + halo, job.source.full_height);
+    const std::ptrdiff_t row_floats = std::ptrdiff_t(3) * pixels.width;
     const std::ptrdiff_t rows_that_fit = kBandBytes / (row_floats * std::ptrdiff_t(sizeof(float)));
     const int band_rows = static_cast<int>(std::clamp<std::ptrdiff_t>(rows_that_fit, kMinBandRows, kMaxBandRows));
     std::vector<float> copy;
@@ -192,15 +194,14 @@ void run_in_place(const Pipeline& p, const Job& job, int threads, Progress& prog
         copy.resize((to - from) * row_floats);
         parallel_tasks(to - copied_to, threads, [&](std::int64_t row) {
             const int y = copied_to + static_cast<int>(row);
-            copy_rgb(job.source.pixel(0, y - job.source_y), job.source.x_stride, job.source.width,
-                     &copy[(y - from) * row_floats]);
+            copy_rgb(pixels.pixel(0, y - job.source.y), pixels.x_stride, pixels.width, &copy[(y - from) * row_floats]);
         });
         copied_from = from;
         copied_to = to;
 
         Job band = job;
-        band.source = { copy.data(), job.source.width, to - from, 3, row_floats };
-        band.source_y = from;
+        band.source.pixels = { copy.data(), pixels.width, to - from, 3, row_floats };
+        band.source.y = from;
         band.roi.y0 = y0;
         band.roi.y1 = y1;
         band.target.data = job.target.pixel(0, y0 - job.roi.y0);
@@ -223,31 +224,34 @@ std::string size_text(int width, int height)
 Status check_job(const Job& job, int halo)
 {
     const Roi& roi = job.roi;
-    if (roi.x0 < 0 || roi.y0 < 0 || roi.x1 > job.full_width || roi.y1 > job.full_height || roi.x0 >= roi.x1 ||
+    const ImagePart& source = job.source;
+    if (roi.x0 < 0 || roi.y0 < 0 || roi.x1 > source.full_width || roi.y1 > source.full_height || roi.x0 >= roi.x1 ||
         roi.y0 >= roi.y1)
         return Error{ "apply: region [" + std::to_string(roi.x0) + ", " + std::to_string(roi.x1) + ") × [" +
                       std::to_string(roi.y0) + ", " + std::to_string(roi.y1) + ") is empty or outside the image of " +
-                      size_text(job.full_width, job.full_height) };
+                      size_text(source.full_width, source.full_height) };
     if (job.target.width != roi.x1 - roi.x0 || job.target.height != roi.y1 - roi.y0)
         return Error{ "apply: target is " + size_text(job.target.width, job.target.height) + ", region is " +
                       size_text(roi.x1 - roi.x0, roi.y1 - roi.y0) };
-    if (job.source_x > std::max(roi.x0 - halo, 0) || job.source_y > std::max(roi.y0 - halo, 0) ||
-        job.source_x + job.source.width < std::min(roi.x1 + halo, job.full_width) ||
-        job.source_y + job.source.height < std::min(roi.y1 + halo, job.full_height))
-        return Error{ "apply: source of " + size_text(job.source.width, job.source.height) + " at (" +
-                      std::to_string(job.source_x) + ", " + std::to_string(job.source_y) +
-                      ") does not hold the region and " + std::to_string(halo) + " pixels around it" };
+    if (source.x > std::max(roi.x0 - halo, 0) || source.y > std::max(roi.y0 - halo, 0) ||
+        source.x + source.pixels.width < std::min(roi.x1 + halo, source.full_width) ||
+        source.y + source.pixels.height < std::min(roi.y1 + halo, source.full_height))
+        return Error{ "apply: source of " + size_text(source.pixels.width, source.pixels.height) + " at (" +
+                      std::to_string(source.x) + ", " + std::to_string(source.y) + ") does not hold the region and " +
+                      std::to_string(halo) + " pixels around it" };
     return {};
 }
 
 } // namespace
 
-Applier::Applier(std::unique_ptr<const Pipeline> pipeline) : m_pipeline(std::move(pipeline)) {}
+struct Applier::State : Pipeline {};
+
+Applier::Applier(std::unique_ptr<const State> state) : m_state(std::move(state)) {}
 Applier::~Applier() = default;
 
 int Applier::halo() const
 {
-    return m_pipeline->tone_map->halo();
+    return m_state->tone_map->halo();
 }
 
 Expected<std::shared_ptr<const Applier>> Applier::create(const Model& model, const Parameters& parameters,
@@ -257,10 +261,10 @@ Expected<std::shared_ptr<const Applier>> Applier::create(const Model& model, con
         return status.error();
     try {
         const bool reverse = direction == Direction::reverse;
-        auto pipeline = std::make_unique<Pipeline>();
+        auto pipeline = std::make_unique<State>();
         pipeline->direction = direction;
-        pipeline->rebuilds_highlights = model.data().rebuilds_highlights(parameters.gain);
-        pipeline->tone_map = mix_tone_map(reverse ? model.data().tone_reverse : model.data().tone_forward,
+        pipeline->rebuilds_highlights = model_data(model).rebuilds_highlights(parameters.gain);
+        pipeline->tone_map = mix_tone_map(reverse ? model_data(model).tone_reverse : model_data(model).tone_forward,
                                           parameters.tone_weights, tone_method(precision));
         pipeline->color = reverse ? inverse(parameters.color) : parameters.color;
         pipeline->exponent = reverse ? parameters.gamma : 1 / parameters.gamma;
@@ -274,19 +278,18 @@ Expected<std::shared_ptr<const Applier>> Applier::create(const Model& model, con
     }
 }
 
-Status Applier::run(ImageView source, int source_x, int source_y, int full_width, int full_height, Roi roi,
-                    MutableImageView target, const ApplyOptions& options) const
+Status Applier::run(const ImagePart& source, Roi roi, MutableImageView target, const ApplyOptions& options) const
 {
-    const Job job{ source, source_x, source_y, full_width, full_height, roi, target };
+    const Job job{ source, roi, target };
     if (Status status = check_job(job, halo()); !status)
         return status;
     try {
         const int threads = options.threads > 0 ? options.threads : OIIO::get_int_attribute("threads", 1);
         Progress progress(options, std::int64_t(target.width) * target.height);
-        if (share_memory(source, target))
-            run_in_place(*m_pipeline, job, threads, progress);
+        if (share_memory(source.pixels, target))
+            run_in_place(*m_state, job, threads, progress);
         else
-            run_tiles(*m_pipeline, job, threads, progress);
+            run_tiles(*m_state, job, threads, progress);
         return progress.cancelled() ? Status(Error{ "apply: cancelled" }) : Status();
     } catch (const std::exception& error) {
         return Error{ std::string("apply: ") + error.what() };
@@ -295,7 +298,7 @@ Status Applier::run(ImageView source, int source_x, int source_y, int full_width
 
 Status Applier::run(ImageView source, MutableImageView target, const ApplyOptions& options) const
 {
-    return run(source, 0, 0, source.width, source.height, { 0, source.width, 0, source.height }, target, options);
+    return run({ source, 0, 0, source.width, source.height }, { 0, source.width, 0, source.height }, target, options);
 }
 
 } // namespace srisp

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <srisp/tone_map_values.h>
+#include <srisp/apply.h>
 
 #include <algorithm>
 #include <array>
@@ -68,7 +68,7 @@ Status tone_map_values(const Model& model, const Parameters& parameters, Directi
         return status;
     try {
         const ToneDictionary& dictionary =
-            direction == Direction::reverse ? model.data().tone_reverse : model.data().tone_forward;
+            direction == Direction::reverse ? model_data(model).tone_reverse : model_data(model).tone_forward;
         Layers layers;
         for (int l = 0; l < kToneLayers; ++l)
             layers[l] = mix_layer(dictionary[l], parameters.tone_weights[l]);

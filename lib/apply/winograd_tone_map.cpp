@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apply/winograd_tone_map.h"
 
-#include "apply/image_tile.h"
-#include "apply/tone_map_output.h"
+#include "apply/tile_rows.h"
 
 namespace srisp {
 

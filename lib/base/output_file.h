@@ -10,7 +10,7 @@
 namespace srisp {
 
 /// A file that appears under its name only when it is complete: it is written to a temporary name in the same folder,
-/// flushed to disk and renamed. What is not finished is removed. Errors, as `'path': reason`.
+/// flushed to disk and renamed. What is not finished is removed. Errors, as `'path' cannot be created: reason`.
 class OutputFile {
 public:
     explicit OutputFile(std::string path);

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <srisp/model.h>
+
 #include "base/matrix3.h"
 
 namespace srisp {
@@ -60,5 +62,11 @@ struct ModelData {
     /// of at least 1 it is clipped in all of them anyway.
     bool rebuilds_highlights(float global_gain) const { return white_stays_white() && 1 / global_gain > 1; }
 };
+
+/// What a loaded model holds: for the rooms of this library, not for those who use it.
+inline const ModelData& model_data(const Model& model)
+{
+    return *model.m_data;
+}
 
 } // namespace srisp

@@ -25,8 +25,13 @@ public:
     virtual const std::string& key() const = 0;
 };
 
-/// Opens a file with any reader but our own; `config`: the host's hints. Straight colour is asked for, so that nothing
-/// is lost in dark transparent pixels. Reads headers only.
+/// Opens what any reader but our own opens: a file, or a name that a reader understands; `config`: the host's hints.
+/// Straight colour is asked for, so that nothing is lost in dark transparent pixels. Reads headers only. Where a file
+/// breaks off, pixels are what its reader makes of them. Errors start with "source 'path'".
 Expected<std::unique_ptr<PixelSource>> open_file_source(const std::string& path, const OIIO::ImageSpec& config);
+
+/// The same for a regular file that must be whole: what its reader warns of is an error. `kind` says what the file is to
+/// be: "photo" gives the name "photo 'path'", and so errors start.
+Expected<std::unique_ptr<PixelSource>> open_whole_file_source(const std::string& path, const std::string& kind);
 
 } // namespace srisp

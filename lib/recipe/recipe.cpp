@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/file_bytes.h"
 #include "base/near_names.h"
-#include "base/text_file.h"
 #include "recipe/option_table.h"
 #include "recipe/reference_pattern.h"
 

@@ -8,7 +8,7 @@
 #include <srisp/thumbnail.h>
 
 #include "base/parallel.h"
-#include "thumbnail/area_average.h"
+#include "thumbnail/area_squasher.h"
 
 namespace srisp {
 

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "base/parallel.h"
-
 namespace srisp {
 
 namespace {
@@ -15,15 +13,7 @@ constexpr int kLeastBandRows = 32;
 constexpr int kBandPixels = 2 << 20; // 24 MB of RGB
 constexpr std::size_t kBandsKept = 2;
 
-void add(PhotoCounts& sum, const PhotoCounts& counts)
-{
-    sum.values += counts.values;
-    sum.clipped += counts.clipped;
-    sum.replaced += counts.replaced;
-}
-
-} // namespace
-
+/// Rows of one band: as many as a few megabytes hold, and whole tiles.
 int band_rows(const OIIO::ImageSpec& spec)
 {
     const int rows = std::clamp(kBandPixels / std::max(spec.width, 1), kLeastBandRows, kBandRows);
@@ -31,28 +21,14 @@ int band_rows(const OIIO::ImageSpec& spec)
     return (rows + tile - 1) / tile * tile;
 }
 
-std::vector<float> convert_rows(const PhotoConverter& converter, const StoredRows& rows, int width, int channels,
-                                int threads, int counted_y0, int counted_y1, PhotoCounts& counts)
-{
-    const int count = rows.y1 - rows.y0;
-    std::vector<float> rgb(std::size_t(width) * count * 3);
-    std::vector<PhotoCounts> row_counts(count);
-    const auto convert = [&](std::int64_t row) {
-        converter.to_rgb(rows.values.data() + row * width * channels, width, rgb.data() + row * width * 3,
-                         row_counts[row]);
-    };
-    parallel_tasks(count, threads, convert);
-    for (int y = counted_y0; y < counted_y1; ++y)
-        add(counts, row_counts[y - rows.y0]);
-    return rgb;
-}
+} // namespace
 
 BandReader::BandReader(PixelSource& source, int subimage, int miplevel, const OIIO::ImageSpec& stored,
                        BandSettings settings)
     : m_source(source), m_width(stored.width), m_height(stored.height), m_stored_channels(stored.nchannels),
       m_channels(settings.converter->output_spec().nchannels), m_band_rows(band_rows(stored)),
       m_settings(std::move(settings)),
-      m_window(source, subimage, miplevel, std::size_t(stored.width) * stored.nchannels),
+      m_reader(source, subimage, miplevel, stored, *m_settings.converter, m_settings.threads),
       m_done((stored.height + m_band_rows - 1) / m_band_rows), m_progress(m_settings.progress)
 {
 }
@@ -92,16 +68,12 @@ Expected<std::shared_ptr<const BandReader::Band>> BandReader::compute(int index)
     const int y0 = index * m_band_rows, y1 = std::min(y0 + m_band_rows, m_height);
     const int halo = m_settings.applier->halo();
     const int first = std::max(y0 - halo, 0), last = std::min(y1 + halo, m_height);
-    const auto stored = m_window.rows(first, last);
-    if (!stored)
-        return stored.error();
-    const std::size_t stored_row = std::size_t(m_width) * m_stored_channels, row = std::size_t(m_width) * 3;
-    PhotoCounts counts;
-    const std::vector<float> rgb =
-        convert_rows(*m_settings.converter, **stored, m_width, m_stored_channels, m_settings.threads, y0, y1, counts);
-    const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(row);
-    const ImageView source{ rgb.data(), m_width, last - first, 3, stride };
-    std::vector<float> result(row * (y1 - y0));
+    const auto rows = m_reader.rows(first, last);
+    if (!rows)
+        return rows.error();
+    const ImagePart source{ rows->view(), 0, first, m_width, m_height };
+    const std::ptrdiff_t stride = source.pixels.y_stride;
+    std::vector<float> result(std::size_t(stride) * (y1 - y0));
     ApplyOptions options;
     options.threads = m_settings.threads;
     options.progress = [&](float part) {
@@ -112,19 +84,20 @@ Expected<std::shared_ptr<const BandReader::Band>> BandReader::compute(int index)
         });
         return true;
     };
-    const Status applied = m_settings.applier->run(source, 0, first, m_width, m_height, Roi{ 0, m_width, y0, y1 },
+    const Status applied = m_settings.applier->run(source, Roi{ 0, m_width, y0, y1 },
                                                    { result.data(), m_width, y1 - y0, 3, stride }, options);
     if (!applied)
         return Error{ m_source.name() + ": " + applied.error().message };
 
     auto computed = std::make_shared<Band>(Band{ index, {} });
     computed->values.resize(std::size_t(m_width) * (y1 - y0) * m_channels);
-    m_settings.converter->from_rgb(result.data(), (*stored)->row(y0, stored_row), std::int64_t(m_width) * (y1 - y0),
-                                   m_settings.associate, computed->values.data());
+    const float* const stored = rows->stored->data() + std::size_t(m_width) * m_stored_channels * (y0 - first);
+    m_settings.converter->from_rgb(result.data(), stored, std::int64_t(m_width) * (y1 - y0), m_settings.associate,
+                                   computed->values.data());
     if (!m_done[index]) {
         m_done[index] = true;
         ++m_bands_done;
-        add(m_counts, counts);
+        m_counts += rows->counts(y0, y1);
     }
     if (complete())
         m_progress.wipe();

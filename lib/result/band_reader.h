@@ -5,11 +5,9 @@
 #include <vector>
 
 #include <srisp/apply.h>
-#include <srisp/photo.h>
 
 #include "base/progress.h"
-#include "photo/pixel_source.h"
-#include "photo/row_window.h"
+#include "photo/photo_reader.h"
 
 namespace srisp {
 
@@ -49,20 +47,12 @@ private:
     PixelSource& m_source;
     int m_width, m_height, m_stored_channels, m_channels, m_band_rows;
     BandSettings m_settings;
-    RowWindow m_window;
+    PhotoReader m_reader;
     std::vector<std::shared_ptr<const Band>> m_last; ///< newest first
     std::vector<bool> m_done;
     std::size_t m_bands_done = 0;
     PhotoCounts m_counts;
     ProgressLine m_progress;
 };
-
-/// Converts all rows to display-encoded RGB; those with counted_y0 ≤ y < counted_y1 add to `counts`. `threads`: 0 for
-/// all, 1 for the calling one.
-std::vector<float> convert_rows(const PhotoConverter& converter, const StoredRows& rows, int width, int channels,
-                                int threads, int counted_y0, int counted_y1, PhotoCounts& counts);
-
-/// Rows of one band: as many as a few megabytes hold, and whole tiles.
-int band_rows(const OIIO::ImageSpec& spec);
 
 } // namespace srisp

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "result/chooser.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include <srisp/metadata.h>
 #include <srisp/select.h>
-#include <srisp/thumbnail.h>
 
-#include "base/text_file.h"
-#include "result/band_reader.h"
-#include "result/notes.h"
+#include "base/recently_kept.h"
+#include "photo/photo_reader.h"
 
 namespace srisp {
 
@@ -19,25 +16,6 @@ namespace {
 std::string held_key(const Recipe& recipe, int subimage)
 {
     return recipe.path + "\n" + std::to_string(subimage);
-}
-
-/// Rows of the whole data window, once, from top to bottom.
-Expected<Thumbnail> make_source_thumbnail(PixelSource& source, int subimage, const OIIO::ImageSpec& stored,
-                                          const PhotoConverter& converter, int threads, PhotoCounts& counts)
-{
-    ThumbnailBuilder builder(stored.width, stored.height);
-    RowWindow window(source, subimage, 0, std::size_t(stored.width) * stored.nchannels);
-    const int rows = band_rows(stored);
-    for (int y = 0; y < stored.height; y += rows) {
-        const int end = std::min(y + rows, stored.height);
-        const auto part = window.rows(y, end);
-        if (!part)
-            return part.error();
-        const std::vector<float> rgb =
-            convert_rows(converter, **part, stored.width, stored.nchannels, threads, y, end, counts);
-        builder.add_rows({ rgb.data(), stored.width, end - y, 3, std::ptrdiff_t(3) * stored.width });
-    }
-    return builder.finish(stored.get_int_attribute("Orientation", 1));
 }
 
 } // namespace
@@ -130,8 +108,8 @@ Expected<ChoicePtr> Chooser::select_new(PixelSource& source, int subimage, const
         choice->parameters = *m_recipe.parameters;
         return ChoicePtr(choice);
     }
-    PhotoCounts counts;
-    const auto thumbnail = make_source_thumbnail(source, subimage, stored, converter, threads, counts);
+    PhotoReader photo(source, subimage, 0, stored, converter, threads);
+    const auto thumbnail = photo.thumbnail();
     if (!thumbnail)
         return thumbnail.error();
     auto parameters = select(*m_model, *thumbnail, (*reference)->thumbnail);
@@ -140,7 +118,7 @@ Expected<ChoicePtr> Chooser::select_new(PixelSource& source, int subimage, const
     choice->parameters = *parameters;
     choice->parameters.reference_name = (*reference)->name;
     choice->parameters.reference_hash = (*reference)->hash;
-    const auto pixel_notes = notes_of(counts);
+    const auto pixel_notes = photo.counts().notes();
     choice->notes.insert(choice->notes.end(), pixel_notes.begin(), pixel_notes.end());
     return ChoicePtr(choice);
 }

@@ -7,9 +7,9 @@
 
 #include <srisp/model.h>
 #include <srisp/parameters.h>
-#include <srisp/photo.h>
 #include <srisp/reference.h>
 
+#include "photo/photo_converter.h"
 #include "photo/pixel_source.h"
 #include "recipe/recipe.h"
 #include "result/kept_results.h"

@@ -3,8 +3,6 @@
 
 #include <cstdio>
 
-#include "base/text_file.h"
-
 namespace srisp {
 
 Expected<std::shared_ptr<const Model>> KeptResults::load_model(const std::string& name)

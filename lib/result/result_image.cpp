@@ -6,8 +6,6 @@
 #include <OpenImageIO/strutil.h>
 #include <srisp/metadata.h>
 
-#include "result/notes.h"
-
 namespace srisp {
 
 namespace {
@@ -183,7 +181,7 @@ Status ResultImage::read(int subimage, int miplevel, int threads, int x0, int x1
         return bands.error();
     const Status done = (*bands)->read(x0, x1, y0, y1, out, row_stride);
     if (done && miplevel == 0 && (*bands)->complete())
-        tell(m_levels.at({ subimage, miplevel }), notes_of((*bands)->counts()));
+        tell(m_levels.at({ subimage, miplevel }), (*bands)->counts().notes());
     return done;
 }
 

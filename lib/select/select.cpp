@@ -5,6 +5,7 @@
 
 #include <srisp/model.h>
 
+#include "model/model_data.h"
 #include "select/selection.h"
 
 namespace srisp {
@@ -31,7 +32,7 @@ Expected<Parameters> select(const Model& model, const Thumbnail& source, const T
     if (Status status = check_thumbnail(reference, "reference"); !status)
         return status.error();
     try {
-        Parameters parameters = select_parameters(model.data(), source, reference, nullptr);
+        Parameters parameters = select_parameters(model_data(model), source, reference, nullptr);
         parameters.model_name = model.name();
         parameters.model_hash = model.hash();
         if (Status status = check_parameters(parameters, model); !status)

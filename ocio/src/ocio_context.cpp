@@ -7,7 +7,7 @@
 #include <srisp/model.h>
 #include <srisp/neutral_rendition.h>
 #include <srisp/ocio_transform.h>
-#include <srisp/photo_thumbnail.h>
+#include <srisp/photo.h>
 #include <srisp/reference.h>
 #include <srisp/select.h>
 

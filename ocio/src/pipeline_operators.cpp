@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include <srisp/apply.h>
 #include <srisp/model.h>
 #include <srisp/ocio_transform.h>
-#include <srisp/tone_map_values.h>
 
 #include "base/matrix3.h"
 #include "inverse_gain_table.h"
@@ -79,9 +79,9 @@ Expected<Operators> pipeline_operators(const Model& model, const Parameters& par
     auto tone = tone_cube(model, parameters, direction, lut_size);
     if (!tone)
         return tone.error();
-    return direction == Direction::reverse
-               ? reverse_operators(parameters, std::move(*tone))
-               : forward_operators(parameters, std::move(*tone), model.data().rebuilds_highlights(parameters.gain));
+    return direction == Direction::reverse ? reverse_operators(parameters, std::move(*tone))
+                                           : forward_operators(parameters, std::move(*tone),
+                                                               model_data(model).rebuilds_highlights(parameters.gain));
 }
 
 } // namespace srisp

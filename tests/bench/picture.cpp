@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include <OpenImageIO/imagebufalgo.h>
-#include <srisp/photo.h>
 
+#include "photo/photo_converter.h"
 #include "require.h"
 
 using namespace srisp;

@@ -7,14 +7,14 @@
 #include <CLI/CLI.hpp>
 
 #include "measuring.h"
-#include "network.h"
-#include "pipeline.h"
-#include "process_setup.h"
+#include "train/network/pipeline.h"
+#include "train/run/model_file.h"
+#include "train/tensors/torch_api.h"
 
 using namespace srisp::train;
 
 /// As anyone would write it: the trainer's own form is arranged such that LibTorch is fast.
-static torch::Tensor plain_tone_map(const torch::Tensor& image, const Choice& choice)
+static torch::Tensor plain_tone_map(const torch::Tensor& image, const ChosenParameters& choice)
 {
     torch::Tensor x = image;
     for (std::size_t l = 0; l < choice.tone_reverse_weight.size(); ++l) {
@@ -45,7 +45,7 @@ int main(int argc, char** argv)
         const torch::NoGradGuard no_gradient;
         const std::shared_ptr<Unprocessor> network = make_unprocessor(ModelSettings(), 1);
         const torch::Tensor thumbnail = torch::rand({ 1, 3, 64, 64 });
-        Choice choice;
+        ChosenParameters choice;
         network->reverse(thumbnail, thumbnail, &choice);
         const std::int64_t width = 3000, height = static_cast<std::int64_t>(megapixels * 1e6 / width);
         const torch::Tensor image = torch::rand({ 1, 3, height, width });
@@ -54,7 +54,7 @@ int main(int argc, char** argv)
                 network->apply_reverse(image, choice);
                 return;
             }
-            Choice rest = choice;
+            ChosenParameters rest = choice;
             rest.tone_reverse_weight.clear();
             reverse_pipeline(plain_tone_map(image, choice), rest);
         });

@@ -7,13 +7,13 @@
 #include <CLI/CLI.hpp>
 
 #include "fma_peak.h"
-#include "losses.h"
 #include "measuring.h"
-#include "network.h"
-#include "optimizer.h"
 #include "pack/training_pack.h"
-#include "process_setup.h"
-#include "training_samples.h"
+#include "train/learning/losses.h"
+#include "train/learning/optimizer.h"
+#include "train/run/model_file.h"
+#include "train/samples/sample_maker.h"
+#include "train/tensors/torch_api.h"
 
 using namespace srisp::train;
 
@@ -58,7 +58,10 @@ std::unique_ptr<Samples> samples_of(const Settings& settings)
         throw std::runtime_error(pack.error().message);
     DataSettings data;
     data.image_size = settings.size;
-    return make_samples(data, *pack, 1);
+    srisp::Expected<std::unique_ptr<Samples>> samples = make_samples(data, *pack, 1);
+    if (!samples)
+        throw std::runtime_error(samples.error().message);
+    return std::move(*samples);
 }
 
 class Bench {
@@ -77,7 +80,7 @@ public:
     {
         Parts parts;
         Batch batch;
-        Choice choice;
+        ChosenParameters choice;
         torch::Tensor estimate, loss;
         Compared images;
         parts["1 data"] = seconds([&] { batch = next_batch(number); });

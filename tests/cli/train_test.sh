@@ -171,8 +171,21 @@ check "on a terminal a line says how far it is" on_a_terminal
 check "--list-settings" sh -c '"$1" tiny.json --list-settings | grep -q "^steps = 8$"' sh "$train"
 check "--list-recipes" sh -c '"$1" --list-recipes | grep -qx paper' sh "$train"
 
+# reserve_port: sets $port to one that no other program gets as long as $keeper runs; those who meet there may bind it, too.
+reserve_port() {
+    rm -f port.txt
+    /usr/bin/python3 -c "
+import socket, time
+keeper = socket.socket()
+keeper.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+keeper.bind(('127.0.0.1', 0))
+print(keeper.getsockname()[1], flush=True)
+time.sleep(600)" >port.txt &
+    keeper=$!
+    wait_for test -s port.txt && port=$(cat port.txt)
+}
+reserve_port
 # node RANK OUTPUT OPTIONS…: one of two processes.
-port=$((20000 + $$ % 20000))
 node() {
     rank=$1 output=$2
     shift 2
@@ -190,7 +203,8 @@ together() {
         END { exit bad || NR != 8 }'
 }
 check "two processes have the losses of one" together
-port=$((port + 1))
+kill $keeper
+reserve_port
 one_lost() {
     node 1 lost --steps 4000
     second=$!
@@ -203,11 +217,12 @@ one_lost() {
     [ $? -eq 1 ]
 }
 check "a process that is killed ends the other one" one_lost
-port=$((port + 1))
+kill $keeper
+reserve_port
 one_silent() {
-    node 1 silent --steps 4000 --timeout 10
+    node 1 silent --steps 4000 --timeout 5
     second=$!
-    node 0 silent --steps 4000 --timeout 10
+    node 0 silent --steps 4000 --timeout 5
     first=$!
     wait_for_step silent/log.csv 2 || return 1
     kill -STOP $second
@@ -219,6 +234,7 @@ one_silent() {
     [ $? -eq 1 ]
 }
 check "a process that does not answer ends the other one" one_silent
+kill $keeper
 check "a rank without an address" says 2 "need the address host:port of rank 0" "$train" tiny.json --nodes 2 --rank 0
 
 mkdir full

@@ -21,7 +21,7 @@ struct Golden {
     std::shared_ptr<const Model> model;
     GoldenValues file;
 
-    explicit Golden(GoldenValues golden) : file(std::move(golden))
+    explicit Golden(const GoldenValues& golden) : file(golden)
     {
         Expected<std::shared_ptr<const Model>> loaded = Model::load(file.model);
         REQUIRE_MESSAGE(loaded, (loaded ? "" : loaded.error().message));
@@ -57,7 +57,7 @@ std::vector<float> some_of(PlanarThumbnail& thumbnail, int step)
 
 void check_mixed_kernels(const Golden& golden, const Parameters& parameters)
 {
-    const ModelData& model = golden.model->data();
+    const ModelData& model = model_data(*golden.model);
     for (int l = 0; l < kToneLayers; ++l)
         for (const bool reverse : { true, false }) {
             const ToneDictionary& dictionary = reverse ? model.tone_reverse : model.tone_forward;
@@ -73,7 +73,7 @@ void check_selection(const Golden& golden)
 {
     SelectionTrace trace;
     const Parameters p =
-        select_parameters(golden.model->data(), golden.thumbnail("source"), golden.thumbnail("reference"), &trace);
+        select_parameters(model_data(*golden.model), golden.thumbnail("source"), golden.thumbnail("reference"), &trace);
     if (golden.file.values.count("source_statistics")) {
         check_near(trace.source_statistics, golden, "source_statistics");
         check_near(trace.reference_statistics, golden, "reference_statistics");
@@ -133,10 +133,10 @@ void check_images(const Golden& golden)
     CHECK(forward.largest <= 1e-3);
 }
 
-void check_all(GoldenValues file)
+void check_all(const GoldenValues& file)
 {
     INFO("model ", file.model);
-    const Golden golden(std::move(file));
+    const Golden golden(file);
     on_each_instruction_set([&] {
         check_selection(golden);
         check_images(golden);

@@ -4,6 +4,7 @@
 . "$(dirname "$0")/check.sh"
 programs=$source/tests/repository
 sample=$source/configs/sample/reference.dng
+photo=$source/configs/sample/photo.jpg
 library=$(dirname "$(find "$prefix/" -name libsrisp.so)")
 
 with_cmake() {
@@ -18,10 +19,27 @@ with_pkg_config() {
     eval "c++ -std=c++17 '$programs/$1/$3.cpp' -o '$scratch/$3' $(cat "$scratch/flags")"
 }
 
-model_is_the_installed_one() {
-    "$@" "$sample" >"$scratch/out" || return 1
-    cat "$scratch/out"
-    grep -qF "$(readlink -f "$prefix")/share/srisp/models/default.safetensors RGGB " "$scratch/out"
+gives_the_image_of_the_tool() {
+    rm -f "$scratch/program.exr"
+    "$@" "$photo" "$sample" "$scratch/program.exr" || return 1
+    "$prefix/bin/srisptool" "$photo" --srisp-unprocess "$sample" -d half -o "$scratch/tool.exr" || return 1
+    idiff -fail 0 -warn 0 "$scratch/program.exr" "$scratch/tool.exr" || return 1
+    for image in program tool; do
+        iinfo -v "$scratch/$image.exr" | grep -E 'unprocess:(parameters|model|reference|colorspace)' >"$scratch/$image.record"
+    done
+    [ "$(wc -l <"$scratch/tool.record")" -ge 3 ] && diff "$scratch/program.record" "$scratch/tool.record"
+}
+
+names_the_missing_photo() {
+    ! "$scratch/package/unprocess" /no.jpg "$sample" "$scratch/no.exr" 2>"$scratch/stderr" \
+        && grep -F "photo '/no.jpg': does not exist" "$scratch/stderr" && [ ! -e "$scratch/no.exr" ]
+}
+
+# A copy of the library that has no models beside it.
+models_are_those_beside_the_library() {
+    mkdir -p "$scratch/bare/lib" && cp -P "$library"/libsrisp.so* "$scratch/bare/lib/" || return 1
+    ! LD_LIBRARY_PATH="$scratch/bare/lib" "$scratch/unprocess" "$photo" "$sample" "$scratch/no.exr" 2>"$scratch/stderr" \
+        && grep -F "unknown model 'default' (no model folder found" "$scratch/stderr"
 }
 
 exports_only_srisp() {
@@ -49,10 +67,12 @@ names_the_missing_reference() {
 }
 
 check "a program builds with find_package(srisp)" with_cmake package
-check "the program built with CMake runs" model_is_the_installed_one "$scratch/package/unprocess"
+check "the program built with CMake gives the tool's image, to the bit" gives_the_image_of_the_tool "$scratch/package/unprocess"
+check "a photo that is not there is named" names_the_missing_photo
 check "a program builds with pkg-config" with_pkg_config package srisp unprocess
-check "the program built with pkg-config runs" \
-    model_is_the_installed_one env LD_LIBRARY_PATH="$library" "$scratch/unprocess"
+check "and so does the program built with pkg-config" \
+    gives_the_image_of_the_tool env LD_LIBRARY_PATH="$library" "$scratch/unprocess"
+check "models are those beside the library" models_are_those_beside_the_library
 check "libsrisp exports nothing but srisp's own names" exports_only_srisp libsrisp.so select
 check "and so does libsrisp_ocio" exports_only_srisp libsrisp_ocio.so transform_from_context
 check "what is installed names no folder of the build, and has no run path but \$ORIGIN" names_no_absolute_folders

@@ -11,7 +11,7 @@
 #include "../common/failure.h"
 #include "../common/interrupt.h"
 #include "base/file_bytes.h"
-#include "photo/photo_file.h"
+#include "photo/photo_reader.h"
 
 namespace srisp::tool {
 
@@ -60,14 +60,12 @@ PhotoSample read_photo_sample(const std::string& path)
     PhotoFile photo = require(PhotoFile::open(path));
     PhotoSample sample = empty_sample(path, photo.width(), photo.height());
     ThumbnailBuilder builder(sample.width, sample.height);
-    for (int y = 0; y < sample.height; y += photo.band_rows()) {
+    require(photo.reader().read_all([&](ImageView rows, int y0) {
         check_interrupt();
-        const int end = std::min(y + photo.band_rows(), sample.height);
-        const float* const rgb = require(photo.read(y, end));
-        const ImageView rows{ rgb, sample.width, end - y, 3, std::ptrdiff_t(3) * sample.width };
         builder.add_rows(rows);
-        add_rows(sample, rows, y);
-    }
+        add_rows(sample, rows, y0);
+        return Status();
+    }));
     sample.thumbnail = builder.finish(photo.orientation());
     return sample;
 }

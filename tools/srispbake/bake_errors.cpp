@@ -30,9 +30,9 @@ public:
         const int held_width = held.x1 - held.x0, roi_width = roi.x1 - roi.x0;
         Pixels result(std::size_t(3) * roi_width * (roi.y1 - roi.y0));
         require(m_applier->run(
-            ImageView{ rgb.data(), held_width, held.y1 - held.y0, 3, std::ptrdiff_t(3) * held_width }, held.x0, held.y0,
-            width, height, roi,
-            MutableImageView{ result.data(), roi_width, roi.y1 - roi.y0, 3, std::ptrdiff_t(3) * roi_width }));
+            { ImageView{ rgb.data(), held_width, held.y1 - held.y0, 3, std::ptrdiff_t(3) * held_width }, held.x0,
+              held.y0, width, height },
+            roi, MutableImageView{ result.data(), roi_width, roi.y1 - roi.y0, 3, std::ptrdiff_t(3) * roi_width }));
         return result;
     }
     /// Single colours.

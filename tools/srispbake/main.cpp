@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <sys/stat.h>
-
 #include <chrono>
 #include <cstdio>
 #include <string>
@@ -12,6 +10,7 @@
 #include "../common/failure.h"
 #include "../common/interrupt.h"
 #include "bake.h"
+#include "base/recently_kept.h"
 #include "config_fragment.h"
 
 using namespace srisp;
@@ -43,13 +42,8 @@ FileWatch::FileWatch(std::vector<std::string> paths)
 std::string FileWatch::state() const
 {
     std::string text;
-    for (const std::string& path : m_paths) {
-        struct stat s;
-        if (::stat(path.c_str(), &s) == 0)
-            text += std::to_string(s.st_dev) + " " + std::to_string(s.st_ino) + " " + std::to_string(s.st_size) + " " +
-                    std::to_string(s.st_mtim.tv_sec) + "." + std::to_string(s.st_mtim.tv_nsec);
-        text += "\n";
-    }
+    for (const std::string& path : m_paths)
+        text += file_state(path) + "\n";
     return text;
 }
 

@@ -6,13 +6,12 @@
 
 #include "../common/failure.h"
 #include "base/progress.h"
-#include "evaluation.h"
 #include "model/model_files.h"
-#include "model_file.h"
-#include "network.h"
 #include "pack/training_pack.h"
-#include "process_setup.h"
-#include "settings_json.h"
+#include "train/evaluation/evaluation.h"
+#include "train/run/model_file.h"
+#include "train/settings/settings.h"
+#include "train/tensors/torch_api.h"
 
 using namespace srisp;
 using namespace srisp::tool;
@@ -20,7 +19,7 @@ using namespace srisp::train;
 
 namespace {
 
-struct Options {
+struct EvalOptions {
     std::string pack;
     std::vector<std::string> models, baselines, assignments;
     bool json = false, by_camera = false, quiet = false;
@@ -81,7 +80,7 @@ struct Method {
     std::shared_ptr<Unprocessor> method;
 };
 
-std::vector<Method> load_methods(const Options& options)
+std::vector<Method> load_methods(const EvalOptions& options)
 {
     std::vector<Method> methods;
     for (const std::string& name : options.baselines) {
@@ -94,7 +93,7 @@ std::vector<Method> load_methods(const Options& options)
     return methods;
 }
 
-int run(const Options& options)
+int run(const EvalOptions& options)
 {
     const EvaluationSettings settings = read_settings(options.assignments);
     if (options.models.empty() && options.baselines.empty())
@@ -124,7 +123,7 @@ int run(const Options& options)
 
 int main(int argc, char** argv)
 {
-    Options options;
+    EvalOptions options;
     CLI::App app{ "srispeval -- holds models against test images whose truth is known", "srispeval" };
     app.footer([] { return settings_text() + kExamples; });
     app.set_version_flag("--version", "srispeval " SRISP_VERSION);

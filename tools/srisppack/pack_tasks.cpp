@@ -11,7 +11,7 @@
 #include "base/matrix3.h"
 #include "camera/daylight_matrix.h"
 #include "crops.h"
-#include "photo/photo_file.h"
+#include "photo/photo_reader.h"
 #include "thumbnail/area_squasher.h"
 
 namespace srisp::tool {
@@ -24,30 +24,25 @@ struct Squashing {
     AreaSquasher squasher;
 };
 
-/// The rows of a band that lie in the crop.
-void add_band(Squashing& crop, const float* rgb, int width, int y0, int y1)
+/// Those of the rows y0 and below that lie in the crop.
+void add_rows(Squashing& crop, ImageView rows, int y0)
 {
-    const int first = std::max(y0, crop.stored.y0), last = std::min(y1, crop.stored.y1);
-    if (first >= last)
-        return;
-    const std::ptrdiff_t row = std::ptrdiff_t(3) * width;
-    crop.squasher.add_rows(
-        { rgb + (first - y0) * row + 3 * crop.stored.x0, crop.stored.x1 - crop.stored.x0, last - first, 3, row });
+    const Roi& stored = crop.stored;
+    const int first = std::max(y0, stored.y0), last = std::min(y0 + rows.height, stored.y1);
+    if (first < last)
+        crop.squasher.add_rows(
+            { rows.pixel(stored.x0, first - y0), stored.x1 - stored.x0, last - first, rows.x_stride, rows.y_stride });
 }
 
 Status squash(PhotoFile& photo, std::vector<Squashing>& crops)
 {
-    for (int y = 0; y < photo.height(); y += photo.band_rows()) {
+    return photo.reader().read_all([&](ImageView rows, int y0) {
         if (pending_interrupt())
-            return Error{ "interrupted" };
-        const int end = std::min(y + photo.band_rows(), photo.height());
-        const Expected<const float*> rgb = photo.read(y, end);
-        if (!rgb)
-            return rgb.error();
+            return Status(Error{ "interrupted" });
         for (Squashing& crop : crops)
-            add_band(crop, *rgb, photo.width(), y, end);
-    }
-    return {};
+            add_rows(crop, rows, y0);
+        return Status();
+    });
 }
 
 Expected<PackedScene> pack_photo(const std::string& path, const std::string& name, const Provenance& provenance,

@@ -1,18 +1,96 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "anchor_start.h"
 
+#include <chrono>
 #include <cstdio>
 
 #include "../common/failure.h"
-#include "kept_pairs.h"
+#include "../common/interrupt.h"
 #include "model/model_files.h"
-#include "model_file.h"
+#include "output_folder.h"
+#include "train/run/model_file.h"
 
 namespace srisp::tool {
 
 using namespace train;
 
 namespace {
+
+/// The pairs that an anchor is fitted to, in a file of the output folder for as long as the fit lasts: every few
+/// minutes, and when the program is told to stop.
+class KeptPairs {
+public:
+    KeptPairs(const Session& session, Host& host, AnchorPairs& pairs);
+
+    /// Goes on from those that an earlier run made, if it did. Fails where they are another training's.
+    void find();
+
+    /// To be called often, with the line that tells how far it is. Keeps them when it is time; after a signal at once,
+    /// and throws Interrupted.
+    void while_it_lasts(ProgressMeter& meter);
+
+private:
+    using Clock = std::chrono::steady_clock;
+    void keep(ProgressMeter& meter);
+
+    const Session& m_session;
+    Host& m_host;
+    AnchorPairs& m_pairs;
+    std::string m_path;
+    Clock::time_point m_last = Clock::now();
+    int m_kept = 0;
+};
+
+KeptPairs::KeptPairs(const Session& session, Host& host, AnchorPairs& pairs)
+    : m_session(session), m_host(host), m_pairs(pairs), m_path(session.settings().output + "/" + kAnchorPairsFile)
+{
+}
+
+void KeptPairs::find()
+{
+    const std::optional<TrainingState> state = find_checkpoint(m_path, m_session.settings(), m_session.pack->hash());
+    if (!state)
+        return;
+    const auto inputs = state->tensors.find("inputs"), means = state->tensors.find("means");
+    if (inputs == state->tensors.end() || means == state->tensors.end() || !m_pairs.take(inputs->second, means->second))
+        fail("'" + m_path + "' does not hold an anchor's pairs; --restart starts again");
+    m_kept = m_pairs.made();
+    m_host.note("going on from " + std::to_string(m_kept) + " of " + std::to_string(m_pairs.wanted()) +
+                " pairs for the anchor");
+}
+
+void KeptPairs::while_it_lasts(ProgressMeter& meter)
+{
+    const double minutes = std::chrono::duration<double>(Clock::now() - m_last).count() / 60;
+    const bool stopped = pending_interrupt() != 0;
+    if (stopped || minutes >= m_session.settings().run.checkpoint_minutes)
+        keep(meter);
+    if (!stopped)
+        return;
+    meter.wipe();
+    m_host.note("stopped with " + std::to_string(m_pairs.made()) + " of " + std::to_string(m_pairs.wanted()) +
+                " pairs for the anchor; the same command goes on from " +
+                (m_kept == 0                ? "the start"
+                 : m_kept == m_pairs.made() ? "there"
+                                            : std::to_string(m_kept)));
+    check_interrupt();
+}
+
+void KeptPairs::keep(ProgressMeter& meter)
+{
+    m_last = Clock::now();
+    if (m_pairs.made() == m_kept)
+        return;
+    TrainingState state;
+    state.tensors = { { "inputs", m_pairs.inputs() }, { "means", m_pairs.means() } };
+    state.texts = origin_of(m_session.settings(), m_session.pack->hash());
+    if (const Status status = save_checkpoint(state, m_path))
+        m_kept = m_pairs.made();
+    else {
+        meter.wipe();
+        m_host.note("warning: the anchor's pairs are not kept: " + status.error().message);
+    }
+}
 
 void take_anchor_of(const std::string& name, Unprocessor& model)
 {
@@ -23,7 +101,7 @@ void take_anchor_of(const std::string& name, Unprocessor& model)
 
 /// Nothing where the model has no anchor to fit.
 std::optional<AnchorFit> fit(Session& session, Host& host, const AnchorFitSettings& settings, bool quiet, bool restart,
-                             const std::function<void()>& still_there)
+                             const StillThere& still_there)
 {
     std::optional<AnchorPairs> pairs = pairs_for_anchor(*session.model, settings);
     if (!pairs)
@@ -36,7 +114,7 @@ std::optional<AnchorFit> fit(Session& session, Host& host, const AnchorFitSettin
         while (!pairs->complete()) {
             pairs->make_more(*session.samples);
             meter.show(pairs->made());
-            still_there();
+            require(still_there());
             kept.while_it_lasts(meter);
         }
     }
@@ -44,7 +122,7 @@ std::optional<AnchorFit> fit(Session& session, Host& host, const AnchorFitSettin
     return fit_anchor(*session.model, *pairs, settings, static_cast<std::uint64_t>(session.settings().seed),
                       [&](double part) {
                           meter.show(static_cast<std::int64_t>(part * 100));
-                          still_there();
+                          require(still_there());
                           kept.while_it_lasts(meter);
                       });
 }
@@ -70,7 +148,7 @@ bool helps(Host& host, const Validation& with, const Validation& without)
 
 } // namespace
 
-std::optional<AnchorFitSettings> anchor_fit_of(const Recipe& recipe)
+std::optional<AnchorFitSettings> anchor_fit_of(const TrainingRecipe& recipe)
 {
     AnchorFitSettings settings = recipe.anchor_fit;
     settings.carry_on = settings.carry_on && !recipe.init.empty(); // a new model has nothing to carry on
@@ -79,9 +157,9 @@ std::optional<AnchorFitSettings> anchor_fit_of(const Recipe& recipe)
     return settings;
 }
 
-void start_anchor(Session& session, Host& host, bool quiet, bool restart, const std::function<void()>& still_there)
+void start_anchor(Session& session, Host& host, bool quiet, bool restart, const StillThere& still_there)
 {
-    const Recipe& recipe = session.settings();
+    const TrainingRecipe& recipe = session.settings();
     const std::optional<AnchorFitSettings> settings = anchor_fit_of(recipe);
     if (!settings) {
         if (const AnchorFitSettings& wanted = recipe.anchor_fit;
@@ -103,8 +181,7 @@ void start_anchor(Session& session, Host& host, bool quiet, bool restart, const 
     if (!without || helps(host, *host.validate(*session.model, still_there), *without))
         return;
     host.note("the model's own anchor stays");
-    if (const Status status = take_anchor(*session.model, *before); !status)
-        fail(status.error().message);
+    require(take_anchor(*session.model, *before));
 }
 
 } // namespace srisp::tool

@@ -2,15 +2,21 @@
 #include "host.h"
 
 #include <cstdio>
+#include <ctime>
+#include <map>
+#include <set>
 
-#include "model_file.h"
-#include "model_metadata.h"
+#include "../common/failure.h"
+#include "srisp_commit.h"
+#include "train/run/model_file.h"
 
 namespace srisp::tool {
 
 using namespace train;
 
-static std::string number_text(const char* format, double value)
+namespace {
+
+std::string number_text(const char* format, double value)
 {
     char text[32];
     std::snprintf(text, sizeof text, format, value);
@@ -18,7 +24,7 @@ static std::string number_text(const char* format, double value)
 }
 
 /// "120/2400, 1.9/s, loss 0.043 (reverse 0.031, forward 0.012), 33.2 dB, 6.1 deg, 20 min left"
-static std::string progress_text(const Progress& progress)
+std::string progress_text(const RunProgress& progress)
 {
     std::string text = std::to_string(progress.step) + "/" + std::to_string(progress.steps) + ", " +
                        number_text(progress.steps_per_second < 10 ? "%.2f/s" : "%.0f/s", progress.steps_per_second) +
@@ -33,7 +39,67 @@ static std::string progress_text(const Progress& progress)
     return text + ", " + duration_text(progress.seconds_left) + " left";
 }
 
-void Host::progress(const Progress& progress)
+/// The images of one source.
+struct Source {
+    std::set<int> scenes;
+    bool open = true;
+};
+
+/// By "group (licence)".
+std::map<std::string, Source> sources_of(const PackedImages& images, bool open_only)
+{
+    std::map<std::string, Source> sources;
+    for (const PackEntry& entry : images.entries) {
+        if (entry.validation || (open_only && !entry.open))
+            continue;
+        Source& source = sources[entry.group + " (" + entry.licence + ")"];
+        source.scenes.insert(entry.scene);
+        source.open = source.open && entry.open;
+    }
+    return sources;
+}
+
+std::string sources_text(const std::map<std::string, Source>& sources, const std::string& kind)
+{
+    std::string text;
+    for (const auto& [name, source] : sources)
+        text += (text.empty() ? "" : ", ") + std::to_string(source.scenes.size()) + " " + name;
+    return text.empty() ? "" : kind + ": " + text + "; ";
+}
+
+std::string today()
+{
+    const std::time_t now = std::time(nullptr);
+    char text[16];
+    std::strftime(text, sizeof text, "%Y-%m-%d", std::gmtime(&now));
+    return text;
+}
+
+/// What a model file says of how it came about: train_data and license (open images only: the recipe's; else that it
+/// may not be given away), train_commit, date.
+std::map<std::string, std::string> model_metadata(const TrainingRecipe& recipe, const TrainingPack& pack)
+{
+    const auto photos = sources_of(pack.photos(), recipe.data.open_only);
+    const auto raws =
+        recipe.data.raw_share > 0 ? sources_of(pack.raws(), recipe.data.open_only) : std::map<std::string, Source>();
+    bool open = true;
+    for (const auto& sources : { photos, raws })
+        for (const auto& item : sources)
+            open = open && item.second.open;
+    std::map<std::string, std::string> metadata = {
+        { "train_data", sources_text(photos, "photos") + sources_text(raws, "RAW images") +
+                            std::to_string(pack.cameras().names.size()) + " simulated cameras; pack " + pack.hash() },
+        { "license", open ? recipe.licence : "not to be given away: trained on images that are not open" },
+        { "date", today() },
+    };
+    if (*kSourceCommit)
+        metadata["train_commit"] = kSourceCommit;
+    return metadata;
+}
+
+} // namespace
+
+void Host::progress(const RunProgress& progress)
 {
     m_line.show([&] { return progress_text(progress); });
 }
@@ -44,18 +110,18 @@ void Host::note(const std::string& line)
     std::fprintf(stderr, "srisptrain: %s\n", line.c_str());
 }
 
-std::optional<Validation> Host::validate(Unprocessor& model, const std::function<void()>& still_there)
+std::optional<Validation> Host::validate(Unprocessor& model, const StillThere& still_there)
 {
     if (!m_session.tests)
         return {};
-    return validation_of(evaluate(model, *m_session.tests, [&](int) { still_there(); }),
+    return validation_of(evaluate(model, *m_session.tests, [&](int) { require(still_there()); }),
                          m_session.settings().validation.score);
 }
 
 Status Host::save_model(Unprocessor& model, const std::string& path, const std::optional<Validation>& result,
                         std::int64_t step)
 {
-    const Recipe& recipe = m_session.settings();
+    const TrainingRecipe& recipe = m_session.settings();
     std::map<std::string, std::string> metadata = model_metadata(recipe, *m_session.pack);
     nlohmann::ordered_json metrics = { { "recipe", m_session.recipe.name }, { "seed", recipe.seed }, { "step", step } };
     if (result) {

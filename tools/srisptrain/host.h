@@ -11,11 +11,10 @@ class Host : public train::RunHost {
 public:
     Host(const Session& session, bool quiet) : m_session(session), m_line(!quiet) {}
 
-    std::optional<train::Validation> validate(train::Unprocessor& model,
-                                              const std::function<void()>& still_there) override;
+    std::optional<train::Validation> validate(train::Unprocessor& model, const train::StillThere& still_there) override;
     Status save_model(train::Unprocessor& model, const std::string& path,
                       const std::optional<train::Validation>& result, std::int64_t step) override;
-    void progress(const train::Progress& progress) override;
+    void progress(const train::RunProgress& progress) override;
     /// A line that stays, said even when quiet.
     void note(const std::string& line) override;
 

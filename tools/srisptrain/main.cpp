@@ -2,21 +2,21 @@
 #include <cstdio>
 
 #include "../common/failure.h"
-#include "process_setup.h"
 #include "train.h"
+#include "train/tensors/torch_api.h"
 
 using namespace srisp;
 using namespace srisp::tool;
 
 namespace {
 
-void list_settings(const train::Recipe& recipe)
+void list_settings(const train::TrainingRecipe& recipe)
 {
     for (const train::SettingRow& row : recipe_rows(recipe))
         std::printf("%s = %s\n    %s (%s)\n", row.key.c_str(), row.value.c_str(), row.text.c_str(), row.range.c_str());
 }
 
-int run(const Options& options)
+int run(const TrainOptions& options)
 {
     if (options.list_recipes) {
         for (const std::string& name : train::recipe_names())
@@ -40,7 +40,7 @@ int run(const Options& options)
 
 int main(int argc, char** argv)
 {
-    Options options;
+    TrainOptions options;
     CLI::App app{ "srisptrain -- trains models that turn photos into RAW-like images", "srisptrain" };
     app.set_version_flag("--version", "srisptrain " SRISP_VERSION);
     describe_options(app, options);

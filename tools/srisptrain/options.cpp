@@ -27,7 +27,7 @@ Exit codes: 0; 1 where something failed or training diverged, 2 for wrong usage;
 128 + N where signal N stopped it.
 )";
 
-void describe_options(CLI::App& app, Options& options)
+void describe_options(CLI::App& app, TrainOptions& options)
 {
     app.footer(kFooter);
     app.add_option("recipe", options.recipe, "name of an installed recipe, or path of a JSON file");

@@ -9,7 +9,7 @@
 namespace srisp::tool {
 
 /// The command line of srisptrain.
-struct Options {
+struct TrainOptions {
     std::string recipe, pack, output, init, device = "auto";
     std::vector<std::string> assignments;
     int steps = 0;   ///< 0: the recipe's
@@ -21,6 +21,6 @@ struct Options {
     bool dry_run = false, restart = false, list_settings = false, list_recipes = false, quiet = false;
 };
 
-void describe_options(CLI::App& app, Options& options);
+void describe_options(CLI::App& app, TrainOptions& options);
 
 } // namespace srisp::tool

@@ -47,12 +47,12 @@ void OutputFolder::remove(const std::string& name)
         fail("cannot remove '" + file(name) + "': " + error.message());
 }
 
-std::map<std::string, std::string> origin_of(const Recipe& recipe, const std::string& pack_hash)
+std::map<std::string, std::string> origin_of(const TrainingRecipe& recipe, const std::string& pack_hash)
 {
     return { { "recipe", recipe_text(recipe) }, { "pack", pack_hash } };
 }
 
-std::optional<TrainingState> find_checkpoint(const std::string& path, const Recipe& recipe,
+std::optional<TrainingState> find_checkpoint(const std::string& path, const TrainingRecipe& recipe,
                                              const std::string& pack_hash)
 {
     std::error_code error;

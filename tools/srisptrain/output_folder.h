@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "checkpoint.h"
-#include "recipe.h"
+#include "train/learning/checkpoint.h"
+#include "train/run/training_recipe.h"
 
 namespace srisp::tool {
 
@@ -30,11 +30,11 @@ private:
 };
 
 /// What checkpoints keep of a training's origin.
-std::map<std::string, std::string> origin_of(const train::Recipe& recipe, const std::string& pack_hash);
+std::map<std::string, std::string> origin_of(const train::TrainingRecipe& recipe, const std::string& pack_hash);
 
 /// The checkpoint to go on from: none where the file is not there. Fails where it belongs to another recipe or pack,
 /// and says in what they differ.
-std::optional<train::TrainingState> find_checkpoint(const std::string& path, const train::Recipe& recipe,
+std::optional<train::TrainingState> find_checkpoint(const std::string& path, const train::TrainingRecipe& recipe,
                                                     const std::string& pack_hash);
 
 } // namespace srisp::tool

@@ -7,6 +7,7 @@
 
 #include <ATen/Parallel.h>
 
+#include "../common/failure.h"
 #include "anchor_start.h"
 #include "base/progress.h"
 #include "output_folder.h"
@@ -30,7 +31,7 @@ double seconds_of(const std::function<void()>& work)
 
 void print_inputs(const Session& session)
 {
-    const Recipe& recipe = session.settings();
+    const TrainingRecipe& recipe = session.settings();
     const TrainingPack& pack = *session.pack;
     std::int64_t count = 0;
     for (const torch::Tensor& parameter : session.model->parameters())
@@ -51,9 +52,9 @@ void print_inputs(const Session& session)
 }
 
 /// Whether it starts at step 0 is returned, too.
-bool print_output(const Session& session, const Options& options)
+bool print_output(const Session& session, const TrainOptions& options)
 {
-    const Recipe& recipe = session.settings();
+    const TrainingRecipe& recipe = session.settings();
     const auto state = options.restart
                            ? std::nullopt
                            : find_checkpoint(recipe.output + "/" + kCheckpointFile, recipe, session.pack->hash());
@@ -67,7 +68,7 @@ bool print_output(const Session& session, const Options& options)
 /// Seconds that fitting the anchor will take, from a few of its pairs and steps; 0 where there is none to fit.
 double anchor_seconds(Session& session)
 {
-    const Recipe& recipe = session.settings();
+    const TrainingRecipe& recipe = session.settings();
     std::optional<AnchorFitSettings> few = anchor_fit_of(recipe);
     if (!few)
         return 0;
@@ -94,9 +95,9 @@ double peak_memory_mb()
 
 } // namespace
 
-int rehearse(Session& session, const Options& options)
+int rehearse(Session& session, const TrainOptions& options)
 {
-    const Recipe& recipe = session.settings();
+    const TrainingRecipe& recipe = session.settings();
     double anchor = 0;
     if (session.group->writes()) {
         print_inputs(session);
@@ -114,16 +115,16 @@ int rehearse(Session& session, const Options& options)
         session.device, static_cast<std::uint64_t>(recipe.seed));
     double data = 0, learning = 0;
     for (int i = 0; i < kWarmUp; ++i)
-        trainer.step();
+        require(trainer.step());
     const double step = seconds_of([&] {
                             for (int i = 0; i < kMeasured; ++i) {
-                                const StepReport report = trainer.step();
+                                const StepReport report = require(trainer.step());
                                 data += report.data_seconds;
                                 learning += report.learning_seconds;
                             }
                         }) /
                         kMeasured;
-    const double validation = seconds_of([&] { host.validate(trainer.averaged_model(), [] {}); });
+    const double validation = seconds_of([&] { host.validate(trainer.averaged_model(), [] { return Status(); }); });
     if (!session.group->writes())
         return 0;
     const int validations = (recipe.trainer.steps + recipe.run.validate_every - 1) / recipe.run.validate_every;

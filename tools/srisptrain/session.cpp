@@ -7,9 +7,9 @@
 
 #include "../common/failure.h"
 #include "model/model_files.h"
-#include "model_file.h"
-#include "network.h"
-#include "process_setup.h"
+#include "train/run/model_file.h"
+#include "train/samples/sample_maker.h"
+#include "train/tensors/torch_api.h"
 
 namespace srisp::tool {
 
@@ -25,7 +25,7 @@ torch::Device device_of(const std::string& name)
     return name == "cpu" || !available ? torch::kCPU : torch::kCUDA;
 }
 
-Membership membership_of(const Options& options)
+Membership membership_of(const TrainOptions& options)
 {
     const Expected<Membership> membership =
         find_membership({ options.nodes, options.rank, options.address, options.timeout_s }, std::getenv);
@@ -72,7 +72,7 @@ std::shared_ptr<Unprocessor> Session::another() const
     return other;
 }
 
-LoadedRecipe recipe_of(const Options& options)
+LoadedRecipe recipe_of(const TrainOptions& options)
 {
     LoadedRecipe loaded;
     if (!options.recipe.empty()) {
@@ -81,7 +81,7 @@ LoadedRecipe recipe_of(const Options& options)
             fail_usage(found.error().message);
         loaded = require(std::move(found));
     }
-    Recipe& recipe = loaded.recipe;
+    TrainingRecipe& recipe = loaded.recipe;
     if (!options.pack.empty())
         recipe.pack = options.pack;
     if (!options.init.empty())
@@ -93,11 +93,11 @@ LoadedRecipe recipe_of(const Options& options)
     return loaded;
 }
 
-Session open_session(const Options& options)
+Session open_session(const TrainOptions& options)
 {
     Session session;
     session.recipe = recipe_of(options);
-    const Recipe& recipe = session.settings();
+    const TrainingRecipe& recipe = session.settings();
     const Membership membership = membership_of(options);
     for (const auto& [count, name] :
          { std::pair(recipe.trainer.pairs, "pairs"), std::pair(recipe.trainer.unpaired, "unpaired") })
@@ -106,7 +106,10 @@ Session open_session(const Options& options)
                  std::to_string(membership.size) + " processes");
     session.device = device_of(options.device);
     session.pack = require(TrainingPack::open(recipe.pack));
-    session.samples = make_samples(recipe.data, session.pack, static_cast<std::uint64_t>(recipe.seed), session.device);
+    session.samples =
+        require(make_samples(recipe.data, session.pack, static_cast<std::uint64_t>(recipe.seed), session.device));
+    if (recipe.trainer.first_taught_step() < recipe.trainer.steps && !session.samples->has_unpaired())
+        fail("unpaired samples need photos, and the pack has none for training");
     session.model = session.another();
     if (!recipe.init.empty())
         start_from(*session.model, recipe.model, recipe.init);
@@ -118,8 +121,8 @@ Session open_session(const Options& options)
         else
             session.tests_missing = tests.error().message;
     }
-    session.group = std::make_unique<ProcessGroup>(membership);
-    session.group->check_same(recipe_text(recipe) + session.pack->hash(), "recipe and pack");
+    session.group = require(ProcessGroup::join(membership));
+    require(session.group->check_same(recipe_text(recipe) + session.pack->hash(), "recipe and pack"));
     return session;
 }
 

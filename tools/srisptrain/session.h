@@ -7,7 +7,7 @@
 
 #include "options.h"
 #include "pack/training_pack.h"
-#include "recipe.h"
+#include "train/run/training_recipe.h"
 
 namespace srisp::tool {
 
@@ -26,13 +26,13 @@ struct Session {
     bool learns() const { return !model->parameters().empty(); }
     /// Another model of the kind that learns; its parameters do not matter.
     std::shared_ptr<train::Unprocessor> another() const;
-    const train::Recipe& settings() const { return recipe.recipe; }
+    const train::TrainingRecipe& settings() const { return recipe.recipe; }
 };
 
 /// The recipe that the command line asks for, with what it changes.
-train::LoadedRecipe recipe_of(const Options& options);
+train::LoadedRecipe recipe_of(const TrainOptions& options);
 
 /// Opens everything; fails with a message about what is wrong.
-Session open_session(const Options& options);
+Session open_session(const TrainOptions& options);
 
 } // namespace srisp::tool

@@ -5,7 +5,6 @@
 #include "../common/interrupt.h"
 #include "anchor_start.h"
 #include "base/output_file.h"
-#include "kept_pairs.h"
 #include "output_folder.h"
 
 namespace srisp::tool {
@@ -14,15 +13,9 @@ using namespace train;
 
 namespace {
 
-void write_or_fail(const std::string& path, const std::string& text)
-{
-    if (const Status status = write_output_file(path, text); !status)
-        fail(status.error().message);
-}
-
 /// Rank 0: where the training starts; at step 0 without a `state`.
-void start(const Recipe& recipe, const std::optional<TrainingState>& state, TrainingRun& run, OutputFolder& folder,
-           Host& host)
+void start(const TrainingRecipe& recipe, const std::optional<TrainingState>& state, TrainingRun& run,
+           OutputFolder& folder, Host& host)
 {
     bool kept = true;
     if (state) {
@@ -36,14 +29,14 @@ void start(const Recipe& recipe, const std::optional<TrainingState>& state, Trai
     }
     if (kept)
         folder.remove(kAnchorPairsFile);
-    write_or_fail(folder.file(kRecipeFile), recipe_text(recipe));
+    require(write_output_file(folder.file(kRecipeFile), recipe_text(recipe)));
 }
 
 } // namespace
 
-int train_model(Session& session, const Options& options)
+int train_model(Session& session, const TrainOptions& options)
 {
-    const Recipe& recipe = session.settings();
+    const TrainingRecipe& recipe = session.settings();
     Host host(session, options.quiet);
     std::optional<OutputFolder> folder;
     const bool writes = session.group->writes();
@@ -54,12 +47,12 @@ int train_model(Session& session, const Options& options)
     }
     watch_interrupts();
     std::optional<TrainingState> state;
-    session.group->rank_0_alone([&](const std::function<void()>& still_there) {
+    require(session.group->rank_0_alone([&](const StillThere& still_there) {
         if (!options.restart)
             state = find_checkpoint(folder->file(kCheckpointFile), recipe, session.pack->hash());
         if (!state)
             start_anchor(session, host, options.quiet, options.restart, still_there);
-    });
+    }));
     Trainer trainer(
         recipe.trainer, session.model, [&session] { return session.another(); }, session.samples, *session.group,
         session.device, static_cast<std::uint64_t>(recipe.seed));
@@ -69,12 +62,10 @@ int train_model(Session& session, const Options& options)
                     origin_of(recipe, session.pack->hash()), recipe.output, host);
     if (writes)
         start(recipe, state, run, *folder, host);
-    const Expected<RunEnd> end = run.go([] { return pending_interrupt() != 0; });
-    if (!end)
-        fail(end.error().message);
-    if (*end == RunEnd::diverged)
+    const RunEnd end = require(run.go([] { return pending_interrupt() != 0; }));
+    if (end == RunEnd::diverged)
         return kExitFailed;
-    if (*end == RunEnd::stopped) {
+    if (end == RunEnd::stopped) {
         if (writes)
             host.note("stopped after step " + std::to_string(trainer.steps_done()) +
                       "; the same command goes on from there");
@@ -83,9 +74,9 @@ int train_model(Session& session, const Options& options)
     return 0;
 }
 
-int test_only(Session& session, const Options& options)
+int test_only(Session& session, const TrainOptions& options)
 {
-    const Recipe& recipe = session.settings();
+    const TrainingRecipe& recipe = session.settings();
     Host host(session, options.quiet);
     if (!session.tests)
         fail("'" + recipe.model.method +
@@ -93,18 +84,15 @@ int test_only(Session& session, const Options& options)
     OutputFolder folder(recipe.output);
     folder.clear();
     host.note("'" + recipe.model.method + "' has nothing to learn: it is only tested");
-    const std::optional<Validation> result = host.validate(*session.model, [] {});
-    write_or_fail(folder.file(kRecipeFile), recipe_text(recipe));
+    const std::optional<Validation> result = host.validate(*session.model, [] { return Status(); });
+    require(write_output_file(folder.file(kRecipeFile), recipe_text(recipe)));
     RunLog log(recipe.output);
-    if (const Status status = log.add({ { "step", 0 },
-                                        { "score", result->score },
-                                        { "psnr", result->psnr },
-                                        { "angle", result->angle },
-                                        { "validation", result->details } });
-        !status)
-        fail(status.error().message);
-    if (const Status status = host.save_model(*session.model, folder.file(kBestFile), result, 0); !status)
-        fail(status.error().message);
+    require(log.add({ { "step", 0 },
+                      { "score", result->score },
+                      { "psnr", result->psnr },
+                      { "angle", result->angle },
+                      { "validation", result->details } }));
+    require(host.save_model(*session.model, folder.file(kBestFile), result, 0));
     std::printf("%.2f dB, %.2f°\n", result->psnr, result->angle);
     return 0;
 }

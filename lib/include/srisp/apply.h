@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -14,12 +15,18 @@
 namespace srisp {
 
 class Model;
-struct Pipeline;
 
 struct ApplyOptions {
     int threads = 0; ///< 0: all of OpenImageIO's threads; 1: the calling thread only
     /// Called from the calling thread with the part done (0 … 1); returning false cancels.
     std::function<bool(float)> progress;
+};
+
+/// The part of an image that is in memory.
+struct ImagePart {
+    ImageView pixels;
+    int x, y;                    ///< where its pixel (0, 0) lies in the whole
+    int full_width, full_height; ///< of the whole, pixels
 };
 
 /// Parameters made ready to run: tone kernels mixed and packed. Immutable; any number of threads may use one.
@@ -35,20 +42,26 @@ public:
     /// (spatial, fast without bf16), 0 (pointwise).
     int halo() const;
 
-    /// Computes `roi` of the image. `source` is any part of the whole image, which is `full_width` × `full_height`
-    /// pixels; its pixel (0, 0) is (source_x, source_y) of the whole. It must hold `roi` and the halo around it as far
-    /// as the whole image goes. `target` is the image of `roi` alone. Values in [0,1] in and out. `target` may be the
-    /// memory of `source`. Same bits for any number of threads, any tiling and any region. Errors: sizes that do not
-    /// fit; cancelled.
-    Status run(ImageView source, int source_x, int source_y, int full_width, int full_height, Roi roi,
-               MutableImageView target, const ApplyOptions& options = {}) const;
+    /// Computes the region `roi` of the whole image. `source` must hold it and the halo around it as far as the whole
+    /// image goes. `target` is the image of `roi` alone. Values in [0,1] in and out. `target` may be the memory of
+    /// `source`. Same bits for any number of threads, any tiling and any region. Errors: sizes that do not fit;
+    /// cancelled.
+    Status run(const ImagePart& source, Roi roi, MutableImageView target, const ApplyOptions& options = {}) const;
 
     /// The whole image; `target` may be `source`.
     Status run(ImageView source, MutableImageView target, const ApplyOptions& options = {}) const;
 
 private:
-    explicit Applier(std::unique_ptr<const Pipeline> pipeline);
-    std::unique_ptr<const Pipeline> m_pipeline;
+    struct State;
+    explicit Applier(std::unique_ptr<const State> state);
+    std::unique_ptr<const State> m_state;
 };
+
+/// v + φ(v) of single colours, **not** clamped: for those who tabulate the tone map of a pointwise model. `rgb` and
+/// `out`: `count` × 3 floats, display-encoded; they may be the same memory. Uses OpenImageIO's threads; any number of
+/// threads may call it. Errors: a model whose tone map looks at neighbours (kernel size other than 1); parameters of
+/// another model. [method 1]
+SRISP_API Status tone_map_values(const Model& model, const Parameters& parameters, Direction direction,
+                                 const float* rgb, std::int64_t count, float* out);
 
 } // namespace srisp

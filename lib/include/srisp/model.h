@@ -37,10 +37,8 @@ public:
     int dictionary_size() const;                                ///< atoms per dictionary
     const std::map<std::string, std::string>& metadata() const; ///< `__metadata__` of the file
 
-    /// For this library's own use.
-    const ModelData& data() const { return *m_data; }
-
 private:
+    friend const ModelData& model_data(const Model& model);
     explicit Model(std::unique_ptr<const ModelData> data);
     std::unique_ptr<const ModelData> m_data;
 };

@@ -183,7 +183,7 @@ TEST_CASE("any region of interest, from any part of the image, has the bits of t
                 const ImageView part{ source.view().pixel(sx, sy), std::min(roi.x1 + halo, 300) - sx,
                                       std::min(roi.y1 + halo, 150) - sy, 3, 900 };
                 Image target{ roi.x1 - roi.x0, roi.y1 - roi.y0 };
-                REQUIRE(applier->run(part, sx, sy, 300, 150, roi, target.view()));
+                REQUIRE(applier->run({ part, sx, sy, 300, 150 }, roi, target.view()));
                 bool same = true;
                 for (int y = 0; y < target.height; ++y)
                     same &= std::equal(target.view().pixel(0, y), target.view().pixel(0, y) + 3 * target.width,
@@ -255,10 +255,10 @@ TEST_CASE("regions, targets and sources that do not fit are refused with their n
     Status status = applier->run(source.view(), target.view());
     REQUIRE(!status);
     CHECK(status.error().message == "apply: target is 10 × 10, region is 20 × 20");
-    status = applier->run(source.view(), 0, 0, 20, 20, { 15, 25, 0, 10 }, target.view());
+    status = applier->run({ source.view(), 0, 0, 20, 20 }, { 15, 25, 0, 10 }, target.view());
     REQUIRE(!status);
     CHECK(status.error().message == "apply: region [15, 25) × [0, 10) is empty or outside the image of 20 × 20");
-    status = applier->run(source.view(), 10, 10, 40, 40, { 12, 22, 14, 24 }, target.view());
+    status = applier->run({ source.view(), 10, 10, 40, 40 }, { 12, 22, 14, 24 }, target.view());
     REQUIRE(!status);
     CHECK(status.error().message ==
           "apply: source of 20 × 20 at (10, 10) does not hold the region and 4 pixels around it");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <srisp/tone_map_values.h>
+#include <srisp/apply.h>
 
 #include <doctest/doctest.h>
 #include <srisp/model.h>

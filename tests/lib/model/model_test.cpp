@@ -60,7 +60,7 @@ TEST_CASE("float16 and bfloat16 models load, with another dictionary size too")
         REQUIRE_MESSAGE(model, (model ? "" : model.error().message));
         CHECK((*model)->dictionary_size() == 7);
         CHECK((*model)->name() == type);
-        CHECK((*model)->data().gain_atoms[3] ==
+        CHECK(model_data(**model).gain_atoms[3] ==
               doctest::Approx(file.tensors["dictionary.gain"].values[3]).epsilon(0.01));
     }
 }

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "random.h"
-#include "training_samples.h"
+#include "train/samples/packed_images.h"
+#include "train/tensors/random.h"
 
 /// Cameras with bell-shaped sensitivities, of which the last is for validation, and two lights.
 inline srisp::PackedCameras small_cameras()

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "image_compare.h"
-#include "torch_api.h"
+#include "train/tensors/torch_api.h"
 #include <doctest/doctest.h>
 
 /// All elements in order, as float32.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "trainer.h"
+#include "train/learning/trainer.h"
 
 /// A model that is learnt in a few steps: a gain and a matrix, of which the gain depends on the reference's mean.
 class ToyModel : public srisp::train::Unprocessor {
@@ -17,19 +17,19 @@ public:
     }
 
     torch::Tensor reverse(const torch::Tensor& source, const torch::Tensor& reference,
-                          srisp::train::Choice* choice = nullptr) override
+                          srisp::train::ChosenParameters* choice = nullptr) override
     {
-        srisp::train::Choice own;
-        srisp::train::Choice& chosen = choice ? *choice : own;
+        srisp::train::ChosenParameters own;
+        srisp::train::ChosenParameters& chosen = choice ? *choice : own;
         chosen.gain = m_gain * (reference.mean({ 1, 2, 3 }) + 0.5);
         return apply_reverse(source, chosen);
     }
-    torch::Tensor apply_reverse(const torch::Tensor& image, const srisp::train::Choice& choice) override
+    torch::Tensor apply_reverse(const torch::Tensor& image, const srisp::train::ChosenParameters& choice) override
     {
         return (torch::einsum("oc,nchw->nohw", { m_matrix, image }) + m_bias.view({ 1, 3, 1, 1 })) *
                choice.gain.view({ -1, 1, 1, 1 });
     }
-    torch::Tensor process(const torch::Tensor& raw, const srisp::train::Choice& choice) override
+    torch::Tensor process(const torch::Tensor& raw, const srisp::train::ChosenParameters& choice) override
     {
         return raw / choice.gain.view({ -1, 1, 1, 1 });
     }

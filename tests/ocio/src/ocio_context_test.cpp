@@ -8,7 +8,7 @@
 
 #include <doctest/doctest.h>
 #include <srisp/ocio_transform.h>
-#include <srisp/photo_thumbnail.h>
+#include <srisp/photo.h>
 
 #include "image_compare.h"
 #include "ocio/ocio_pixels.h"

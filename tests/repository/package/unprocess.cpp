@@ -1,26 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user of the library writes: a grey picture and a reference RAW → parameters, and the picture's first pixel.
+// What a user of the library writes: a photo and a reference RAW → a RAW-like image.
 #include <cstdio>
 
-#include <srisp/apply.h>
-#include <srisp/model.h>
-#include <srisp/reference.h>
-#include <srisp/select.h>
+#include <srisp/srisp.h>
 
-int main(int, char** argv)
+int main(int argc, char** argv)
 {
-    srisp::Thumbnail photo;
-    photo.rgb.assign(photo.rgb.size(), 0.5f);
-    const auto model = srisp::Model::load("default");
-    const auto reference = srisp::load_reference(argv[1]);
-    if (!model || !reference)
-        return std::fprintf(stderr, "%s\n", (model ? reference.error() : model.error()).message.c_str()), 1;
-    const auto parameters = srisp::select(**model, photo, (*reference)->thumbnail);
-    const auto applier = srisp::Applier::create(**model, *parameters, srisp::Direction::reverse);
-    srisp::MutableImageView pixels{ photo.rgb.data(), srisp::kThumbnailSize, srisp::kThumbnailSize, 3,
-                                    3 * srisp::kThumbnailSize };
-    if (!(*applier)->run(pixels, pixels))
-        return 1;
-    std::printf("%s %s %.4f %.4f %.4f\n", (*model)->path().c_str(), (*reference)->facts.cfa_pattern.c_str(),
-                photo.rgb[0], photo.rgb[1], photo.rgb[2]);
+    if (argc != 4)
+        return std::fprintf(stderr, "usage: unprocess photo.jpg reference.dng result.exr\n"), 2;
+    const auto raw = srisp::unprocess(argv[1], argv[2]);
+    if (!raw)
+        return std::fprintf(stderr, "%s\n", raw.error().message.c_str()), 1;
+    const auto saved = raw->save(argv[3]);
+    return saved ? 0 : (std::fprintf(stderr, "%s\n", saved.error().message.c_str()), 1);
 }

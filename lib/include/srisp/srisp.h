@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <OpenImageIO/imageio.h>
+#include <srisp/apply.h>
+#include <srisp/camera.h>
+#include <srisp/expected.h>
+#include <srisp/export.h>
+#include <srisp/image.h>
+#include <srisp/metadata.h>
+#include <srisp/metrics.h>
+#include <srisp/model.h>
+#include <srisp/neutral_rendition.h>
+#include <srisp/options.h>
+#include <srisp/parameters.h>
+#include <srisp/photo.h>
+#include <srisp/reference.h>
+#include <srisp/select.h>
+#include <srisp/thumbnail.h>
+
+// The front door: from files to pixels in one call. Nothing throws; any number of threads may call.
+
+namespace srisp {
+
+/// An image that owns its pixels: float32, all channels of a pixel adjacent, rows from top to bottom.
+class SRISP_API Image {
+public:
+    Image(OIIO::ImageSpec spec, std::vector<float> pixels) : m_spec(std::move(spec)), m_pixels(std::move(pixels)) {}
+
+    /// Size, names of channels, and what the image says of itself (metadata.h).
+    const OIIO::ImageSpec& spec() const { return m_spec; }
+    /// spec().width × spec().height × spec().nchannels values.
+    const std::vector<float>& pixels() const { return m_pixels; }
+    /// The first three channels: R, G, B.
+    ImageView view() const
+    {
+        return { m_pixels.data(), m_spec.width, m_spec.height, m_spec.nchannels,
+                 std::ptrdiff_t(m_spec.width) * m_spec.nchannels };
+    }
+
+    /// Writes a file of the kind that its name ends in, with all metadata that it can hold: OpenEXR in half, TIFF, FITS
+    /// and Radiance in float, others in 16 bits, or in 8 where they have no more. It appears under its name only when
+    /// it is complete. Errors start with "image 'path' cannot be written: ".
+    Status save(const std::string& path) const;
+
+private:
+    OIIO::ImageSpec m_spec;
+    std::vector<float> m_pixels;
+};
+
+/// What the camera of the reference would have recorded of the photo's scene, in the reference's light: linear camera
+/// RGB in [0,1]. Photo: any image that OpenImageIO reads (its first subimage); alpha and further channels are kept.
+/// Reference: what load_reference reads, or a folder or glob, of which one file is taken by `options.seed`; may be
+/// empty where `options.parameters` are given. Errors: missing or damaged files, a model that is not there, an image
+/// that is RAW-like already.
+SRISP_API Expected<Image> unprocess(const std::string& photo_path, const std::string& reference_path,
+                                    const Options& options = {});
+
+/// A RAW-like image → a display-encoded photo, by the parameters that the image records or `options` give.
+SRISP_API Expected<Image> process(const std::string& raw_path, const Options& options = {});
+
+} // namespace srisp

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "photo/photo_reader.h"
+
+#include <algorithm>
+
+#include <srisp/photo.h>
+#include <srisp/thumbnail.h>
+
+#include "base/parallel.h"
+
+namespace srisp {
+
+namespace {
+
+constexpr int kBandPixels = 1 << 18; // 3 MB of RGB
+constexpr int kLargestSide = 1 << 17;
+
+} // namespace
+
+PhotoCounts PhotoRows::counts(int first, int last) const
+{
+    PhotoCounts sum;
+    for (int y = first; y < last; ++y)
+        sum += row_counts[y - y0];
+    return sum;
+}
+
+PhotoReader::PhotoReader(PixelSource& source, int subimage, int miplevel, const OIIO::ImageSpec& spec,
+                         const PhotoConverter& converter, int threads)
+    : m_source(source), m_converter(converter), m_subimage(subimage), m_miplevel(miplevel), m_width(spec.width),
+      m_height(spec.height), m_channels(spec.nchannels), m_orientation(spec.get_int_attribute("Orientation", 1)),
+      m_threads(threads)
+{
+    const int tile = std::max(spec.tile_height, 1);
+    m_band_rows = (std::max(kBandPixels / std::max(m_width, 1), 1) + tile - 1) / tile * tile;
+}
+
+Expected<PhotoReader::StoredRows> PhotoReader::stored_rows(int y0, int y1)
+{
+    const StoredRows last = m_last;
+    const int last_y0 = m_last_y0, last_y1 = m_last_y1;
+    const std::size_t row = std::size_t(m_width) * m_channels;
+    const auto values = std::make_shared<std::vector<float>>(row * (y1 - y0));
+    int first = y0;
+    if (last_y0 <= y0 && y0 < last_y1) {
+        first = std::min(last_y1, y1);
+        std::copy_n(last->data() + row * (y0 - last_y0), row * (first - y0), values->data());
+    }
+    if (first < y1)
+        if (const Status read =
+                m_source.read_rows(m_subimage, m_miplevel, first, y1, values->data() + row * (first - y0));
+            !read)
+            return read.error();
+    m_last = values;
+    m_last_y0 = y0;
+    m_last_y1 = y1;
+    return StoredRows(values);
+}
+
+Expected<PhotoRows> PhotoReader::rows(int y0, int y1)
+{
+    const auto stored = stored_rows(y0, y1);
+    if (!stored)
+        return stored.error();
+    const std::size_t count = std::size_t(y1 - y0), row = std::size_t(m_width);
+    PhotoRows rows{ m_width, y0, y1, *stored, std::vector<float>(count * row * 3), std::vector<PhotoCounts>(count) };
+    const auto convert = [&](std::int64_t y) {
+        m_converter.to_rgb(rows.stored->data() + y * row * m_channels, m_width, rows.rgb.data() + y * row * 3,
+                           rows.row_counts[y]);
+    };
+    parallel_tasks(y1 - y0, m_threads, convert);
+    return rows;
+}
+
+Status PhotoReader::read_all(const std::function<Status(ImageView rows, int y0)>& use)
+{
+    for (int y = 0; y < m_height; y += m_band_rows) {
+        const auto read = rows(y, std::min(y + m_band_rows, m_height));
+        if (!read)
+            return read.error();
+        m_counts += read->counts(read->y0, read->y1);
+        if (Status used = use(read->view(), y); !used)
+            return used;
+    }
+    return {};
+}
+
+Expected<Thumbnail> PhotoReader::thumbnail()
+{
+    ThumbnailBuilder builder(m_width, m_height);
+    const Status read = read_all([&](ImageView rows, int) {
+        builder.add_rows(rows);
+        return Status();
+    });
+    if (!read)
+        return read.error();
+    return builder.finish(m_orientation);
+}
+
+Expected<PhotoFile> PhotoFile::open(const std::string& path)
+{
+    auto source = open_whole_file_source(path, "photo");
+    if (!source)
+        return source.error();
+    const std::string& where = (*source)->name();
+    OIIO::ImageSpec spec;
+    (*source)->find_level(0, 0, spec);
+    if (spec.width < 1 || spec.height < 1 || std::max(spec.width, spec.height) > kLargestSide)
+        return Error{ where + ": has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+                      " pixels; from 1 to " + std::to_string(kLargestSide) + " a side are possible" };
+    auto converter = PhotoConverter::create(spec, InputEncoding::automatic, where);
+    if (!converter)
+        return converter.error();
+    return PhotoFile(std::move(*source), std::move(spec), std::move(*converter));
+}
+
+Expected<Thumbnail> load_photo_thumbnail(const std::string& path)
+{
+    try {
+        auto photo = PhotoFile::open(path);
+        return photo ? photo->reader().thumbnail() : Expected<Thumbnail>(photo.error());
+    } catch (const std::exception& failed) {
+        return Error{ "photo '" + path + "': " + failed.what() };
+    }
+}
+
+} // namespace srisp

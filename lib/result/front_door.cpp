@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <srisp/srisp.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include <unistd.h>
+
+#include "photo/pixel_source.h"
+#include "recipe/recipe.h"
+#include "result/result_image.h"
+
+namespace srisp {
+
+namespace {
+
+/// As much of a value as a kind of file can hold; a writer takes the nearest that it has.
+OIIO::TypeDesc stored_type(const std::string& format)
+{
+    if (format == "openexr")
+        return OIIO::TypeHalf;
+    const char* const floats[] = { "tiff", "fits", "hdr" };
+    return std::count(std::begin(floats), std::end(floats), format) ? OIIO::TypeFloat : OIIO::TypeUInt16;
+}
+
+/// In the same folder, and of the same kind for writers that look at the name again.
+std::filesystem::path temporary_name(const std::filesystem::path& path)
+{
+    const std::string name = path.stem().string() + ".tmp-" + std::to_string(::getpid()) + path.extension().string();
+    return path.parent_path() / name;
+}
+
+/// Empty where all went well.
+std::string write_image(OIIO::ImageOutput& output, const std::string& path, const OIIO::ImageSpec& image,
+                        const float* pixels)
+{
+    OIIO::ImageSpec spec = image;
+    spec.set_format(stored_type(output.format_name()));
+    spec.tile_width = spec.tile_height = 0; // tiles of the photo may have a size that this writer refuses
+    const bool written = output.open(path, spec) && output.write_image(OIIO::TypeFloat, pixels) && output.close();
+    const std::string reason = written ? "" : output.geterror();
+    return written || !reason.empty() ? reason : "its writer does not say why";
+}
+
+Expected<Image> result_of(const Recipe& recipe, Expected<std::unique_ptr<PixelSource>> source)
+{
+    // Never destroyed: other threads may still read while statics end.
+    static KeptResults& kept = *new KeptResults;
+    if (!source)
+        return source.error();
+    if (const Status complete = check_complete(recipe, (*source)->name()); !complete)
+        return complete.error();
+    const auto result = ResultImage::open(recipe, std::move(*source), {}, kept);
+    if (!result)
+        return result.error();
+    constexpr int kAllThreads = 0;
+    const auto found = (*result)->full_spec(0, 0, kAllThreads);
+    if (!found)
+        return found.error();
+    const OIIO::ImageSpec spec = **found;
+    const std::size_t row = std::size_t(spec.width) * spec.nchannels;
+    std::vector<float> pixels(row * spec.height);
+    const Status read = (*result)->read(0, 0, kAllThreads, 0, spec.width, 0, spec.height, pixels.data(), row);
+    if (!read)
+        return read.error();
+    return Image(spec, std::move(pixels));
+}
+
+/// What libraries throw becomes an error.
+template<class Step> auto guarded(const std::string& where, const Step& step) -> decltype(step())
+{
+    try {
+        return step();
+    } catch (const std::exception& thrown) {
+        return Error{ where + ": " + thrown.what() };
+    } catch (...) {
+        return Error{ where + ": unknown exception" };
+    }
+}
+
+} // namespace
+
+Status Image::save(const std::string& path) const
+{
+    const std::string where = "image '" + path + "' cannot be written";
+    return guarded(where, [&]() -> Status {
+        auto output = OIIO::ImageOutput::create(path);
+        if (!output)
+            return Error{ where + ": " + OIIO::geterror() };
+        const std::filesystem::path temporary = temporary_name(path);
+        std::string reason = write_image(*output, temporary.string(), m_spec, m_pixels.data());
+        output.reset();
+        std::error_code error;
+        if (reason.empty())
+            std::filesystem::rename(temporary, path, error);
+        if (error)
+            reason = error.message();
+        if (reason.empty())
+            return {};
+        std::filesystem::remove(temporary, error);
+        return Error{ where + ": " + reason };
+    });
+}
+
+Expected<Image> unprocess(const std::string& photo_path, const std::string& reference_path, const Options& options)
+{
+    return guarded("photo '" + photo_path + "'", [&] {
+        Recipe recipe;
+        static_cast<Options&>(recipe) = options;
+        recipe.source = photo_path;
+        if (!reference_path.empty())
+            recipe.references = { reference_path };
+        return result_of(recipe, open_whole_file_source(photo_path, "photo"));
+    });
+}
+
+Expected<Image> process(const std::string& raw_path, const Options& options)
+{
+    return guarded("image '" + raw_path + "'", [&] {
+        Recipe recipe;
+        static_cast<Options&>(recipe) = options;
+        recipe.source = raw_path;
+        recipe.direction = Direction::forward;
+        return result_of(recipe, open_whole_file_source(raw_path, "image"));
+    });
+}
+
+} // namespace srisp

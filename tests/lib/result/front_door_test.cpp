@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <srisp/srisp.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include <doctest/doctest.h>
+
+#include "scratch_folder.h"
+
+using namespace srisp;
+
+namespace {
+
+const std::string kSample = std::string(SRISP_SOURCE_DIR) + "/configs/sample/";
+const std::string kPhoto = kSample + "photo.jpg", kReference = kSample + "reference.dng";
+
+std::string refusal(const Expected<Image>& result)
+{
+    REQUIRE(!result);
+    return result.error().message;
+}
+
+bool has(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+std::vector<float> pixels_of(const std::string& path, OIIO::TypeDesc& type)
+{
+    const auto input = OIIO::ImageInput::open(path);
+    REQUIRE(input);
+    const OIIO::ImageSpec spec = input->spec();
+    type = spec.format;
+    std::vector<float> pixels(std::size_t(spec.width) * spec.height * spec.nchannels);
+    REQUIRE(input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, pixels.data()));
+    return pixels;
+}
+
+} // namespace
+
+TEST_CASE("one call leads from files to pixels, and one back")
+{
+    const auto raw = unprocess(kPhoto, kReference);
+    REQUIRE_MESSAGE(raw, (raw ? "" : raw.error().message));
+    const OIIO::ImageSpec& spec = raw->spec();
+    CHECK(raw->pixels().size() == std::size_t(spec.width) * spec.height * 3);
+    CHECK(raw->view().pixel(1, 2) == raw->pixels().data() + (std::size_t(2) * spec.width + 1) * 3);
+    CHECK(spec.get_string_attribute("oiio:ColorSpace") == "camera_rgb");
+    const auto parameters = recorded_parameters(spec, "raw");
+    REQUIRE_MESSAGE(parameters, (parameters ? "" : parameters.error().message));
+    CHECK(parameters->reference_name == "reference.dng");
+
+    const ScratchFolder folder;
+    REQUIRE(raw->save(folder.path("raw.tif")));
+    OIIO::TypeDesc type;
+    CHECK(pixels_of(folder.path("raw.tif"), type) == raw->pixels());
+    CHECK(type == OIIO::TypeFloat);
+    const auto photo = process(folder.path("raw.tif"));
+    REQUIRE_MESSAGE(photo, (photo ? "" : photo.error().message));
+    CHECK(photo->spec().get_string_attribute("oiio:ColorSpace") == "sRGB");
+    std::vector<float> original = pixels_of(kPhoto, type);
+    REQUIRE(original.size() == photo->pixels().size());
+    double sum = 0;
+    for (std::size_t i = 0; i < original.size(); ++i)
+        sum += std::abs(original[i] - photo->pixels()[i]);
+    CHECK(sum / double(original.size()) < 0.05);
+
+    Options given;
+    given.parameters = *parameters;
+    const auto replayed = unprocess(kPhoto, "", given);
+    REQUIRE_MESSAGE(replayed, (replayed ? "" : replayed.error().message));
+    CHECK(replayed->pixels() == raw->pixels());
+}
+
+TEST_CASE("an image is saved in the type that its file can hold, under its name only when it is complete")
+{
+    const ScratchFolder folder;
+    const Image image(OIIO::ImageSpec(4, 2, 3, OIIO::TypeFloat), std::vector<float>(24, 0.25f));
+    for (const auto& [name, type] : { std::pair("a.exr", OIIO::TypeHalf), std::pair("a.tif", OIIO::TypeFloat),
+                                      std::pair("a.png", OIIO::TypeUInt16), std::pair("a.jpg", OIIO::TypeUInt8) }) {
+        const Status saved = image.save(folder.path(name));
+        REQUIRE_MESSAGE(saved, saved.error().message);
+        OIIO::TypeDesc stored;
+        for (const float value : pixels_of(folder.path(name), stored))
+            CHECK(std::abs(value - 0.25f) < 0.01f);
+        CHECK(stored == type);
+    }
+    const std::string nowhere = folder.path("none/a.exr");
+    const Status unsaved = image.save(nowhere);
+    REQUIRE(!unsaved);
+    CHECK(has(unsaved.error().message, "image '" + nowhere + "' cannot be written: "));
+    const Status unknown = image.save(folder.path("a.docx"));
+    REQUIRE(!unknown);
+    CHECK(has(unknown.error().message, "a.docx' cannot be written: "));
+    std::filesystem::create_directory(folder.path("b.png"));
+    CHECK(!image.save(folder.path("b.png")));
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+        files += !has(entry.path().string(), ".tmp-");
+    CHECK(files == 5);
+    CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 5);
+}
+
+TEST_CASE("what is wrong is said, and nothing is thrown")
+{
+    const ScratchFolder folder;
+    const std::string none = folder.path("none.jpg"), garbage = folder.file("garbage.png", "no image");
+    CHECK(refusal(unprocess(none, kReference)) == "photo '" + none + "': does not exist");
+    CHECK(has(refusal(unprocess(garbage, kReference)), "photo '" + garbage + "': "));
+    CHECK(has(refusal(unprocess(kPhoto, folder.path("none.dng"))), "reference '" + folder.path("none.dng") + "': "));
+    CHECK(has(refusal(unprocess(kPhoto, garbage)), "garbage.png"));
+    CHECK(has(refusal(unprocess(kPhoto, "")), "reference"));
+    CHECK(has(refusal(process(kPhoto)), "records no parameters"));
+    CHECK(has(refusal(process(none)), "image '" + none + "': does not exist"));
+    Options options;
+    options.model = "pointwse";
+    CHECK(has(refusal(unprocess(kPhoto, kReference, options)), "did you mean 'pointwise'?"));
+    CHECK(!set_option(options, "precison", "fast"));
+}
