@@ -16,10 +16,10 @@ constexpr double kTolerance = 1e-4; // of max(1, |value|) [method 3]
 
 struct Golden {
     std::shared_ptr<Network> network;
-    std::map<std::string, Tensor> values;
     int thumbnail_step = 0;
+    std::map<std::string, Tensor> values;
 
-    explicit Golden(GoldenValues file) : values(std::move(file.values)), thumbnail_step(file.thumbnail_step())
+    explicit Golden(const GoldenValues& file) : thumbnail_step(file.thumbnail_step()), values(file.values)
     {
         Expected<LoadedModel> loaded = load_model(file.model);
         REQUIRE_MESSAGE(loaded, (loaded ? "" : loaded.error().message));
@@ -98,11 +98,11 @@ void check_choice(const Golden& golden, const ChosenParameters& choice)
     }
 }
 
-void check_all(GoldenValues file)
+void check_all(const GoldenValues& file)
 {
     const torch::NoGradGuard no_gradient;
     INFO("model ", file.model);
-    const Golden golden(std::move(file));
+    const Golden golden(file);
     ChosenParameters choice;
     Trace trace;
     golden.network->traced_reverse(golden.image("thumb.source"), golden.image("thumb.reference"), choice, &trace);
