@@ -22,7 +22,7 @@ struct Golden {
     std::shared_ptr<const Model> model;
     GoldenValues file;
 
-    explicit Golden(GoldenValues golden) : file(std::move(golden))
+    explicit Golden(const GoldenValues& golden) : file(golden)
     {
         Expected<std::shared_ptr<const Model>> loaded = Model::load(file.model);
         REQUIRE_MESSAGE(loaded, (loaded ? "" : loaded.error().message));
@@ -134,10 +134,10 @@ void check_images(const Golden& golden)
     CHECK(forward.largest <= 1e-3);
 }
 
-void check_all(GoldenValues file)
+void check_all(const GoldenValues& file)
 {
     INFO("model ", file.model);
-    const Golden golden(std::move(file));
+    const Golden golden(file);
     on_each_instruction_set([&] {
         check_selection(golden);
         check_images(golden);

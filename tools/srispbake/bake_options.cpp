@@ -66,7 +66,7 @@ so the pointwise model is baked; its errors are printed and written into the
 file: against the pointwise pipeline, over a grid of colours and over the photo,
 and, apart, the difference to the full pipeline (model default).
 
-BakeOptions:
+Options:
   --reference RAW     The RAW file to be matched
   --source PHOTO      The photo to choose for
   --params JSON       Parameters as srisptool --srisp-params:model=pointwise

@@ -44,7 +44,7 @@ of them: columns file, use (training, validation), open (yes, no), source,
 licence. Without one all are used, every tenth for validation. Images that
 cannot be read are listed and left out.
 
-PackOptions:
+Options:
   -o, --output PACK  The folder to make
   --photos INPUT     Take INPUT as photos, whatever it holds; may be repeated
   --raws INPUT       Take INPUT as RAW images (linear EXR and TIFF, too)

@@ -3,45 +3,9 @@
 
 #include <algorithm>
 
-#include "base/near_names.h"
-
 #include "../common/failure.h"
 
 namespace srisp::tool {
-
-const std::vector<SrispCommand>& srisp_commands()
-{
-    static const std::vector<SrispCommand> commands = {
-        { "srisp-unprocess", "REF", kUnprocess, Effect::replaces, "reverse", "apply",
-          "Turn the photo on top of the stack into the linear image that the camera of REF would have recorded" },
-        { "srisp-process", nullptr, kProcess, Effect::replaces, "forward", "apply",
-          "Turn a RAW-like image into a photo again, by the parameters recorded in it" },
-        { "srisp-params", "REF", kParams, Effect::reports, "reverse", "print",
-          "Print the parameters that --srisp-unprocess would choose, as JSON on stdout, one line per image; the image "
-          "stays as it is" },
-        { "srisp-save-params", "FILE", kNoDoor, Effect::reports, "reverse", "save",
-          "Write the parameters recorded in the image to FILE; # or %04d in its name is the frame number" },
-        { "srisp-help", nullptr, kNoDoor, Effect::helps, "", "", "Print this" },
-        { "quiet", nullptr, kNoDoor, Effect::configures, "", "", "No notes and no progress; the same as -q" },
-        { "no-progress", nullptr, kNoDoor, Effect::configures, "", "", "No progress on the terminal" },
-    };
-    return commands;
-}
-
-const SrispCommand* find_srisp_command(const std::string& word)
-{
-    const std::string name = command_name(word);
-    std::vector<std::string> known;
-    for (const SrispCommand& command : srisp_commands()) {
-        if (name == command.name)
-            return &command;
-        if (command.effect != Effect::configures)
-            known.push_back(std::string("--") + command.name);
-    }
-    if (name.rfind("srisp", 0) == 0)
-        fail_usage("unknown command '" + word + "'" + near_names("--" + name, known));
-    return nullptr;
-}
 
 namespace {
 

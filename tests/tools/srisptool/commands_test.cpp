@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../../../tools/srisptool/command_table.h"
+#include "../../../tools/srisptool/commands.h"
 
 #include <map>
 #include <sstream>

@@ -4,6 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "recipe/option_table.h"
+
+// The commands of a command line: oiiotool's, and those that srisptool adds.
+
 namespace srisp::tool {
 
 /// What a command of oiiotool means for the rewriting.
@@ -33,5 +37,30 @@ bool is_command(const std::string& word);
 
 /// The name in such a word: without dashes and modifiers.
 std::string command_name(const std::string& word);
+
+/// What becomes of the image at one of our commands.
+enum class Effect {
+    replaces, ///< the result takes the image's place
+    reports,  ///< the image stays
+    helps,    ///< for the command line: no image
+    configures
+};
+
+/// A command that srisptool adds to oiiotool's.
+struct SrispCommand {
+    const char* name;     ///< without dashes
+    const char* argument; ///< what its one argument is called in messages; null: it takes none
+    Door door;            ///< whose options are its modifiers
+    Effect effect;
+    const char* direction; ///< of the job: "reverse", "forward"
+    const char* action;    ///< of the job: "apply", "print", "save"
+    const char* help;
+};
+
+const std::vector<SrispCommand>& srisp_commands();
+
+/// The entry of a word such as `--srisp-unprocess:model=pointwise`; null if the word is none of ours. Fails (exit 2)
+/// for unknown commands that begin with --srisp.
+const SrispCommand* find_srisp_command(const std::string& word);
 
 } // namespace srisp::tool
