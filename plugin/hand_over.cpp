@@ -40,7 +40,7 @@ public:
         const auto slot = process_state().slots.find(m_id);
         const SlotLevel* level = find_level_of(slot.get(), subimage, miplevel);
         if (!level)
-            return Error{ m_name + ": is no longer kept, a later frame has taken its place" };
+            return Error{ m_name + ": is no longer kept; a later frame has taken its place" };
         const std::size_t row = std::size_t(level->spec.width) * level->spec.nchannels;
         std::copy_n(level->pixels.data() + row * y0, row * (y1 - y0), rows);
         return {};

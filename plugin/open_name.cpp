@@ -35,7 +35,7 @@ Expected<std::string> percent_decoded(const std::string& text)
         const int high = i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
         const int low = i + 2 < text.size() ? hex_digit(text[i + 2]) : -1;
         if (high < 0 || low < 0)
-            return Error{ "'" + text.substr(i, 3) + "' in the query is no percent code (write %25 for %)" };
+            return Error{ "'" + text.substr(i, 3) + "' in the query is not a percent code (write %25 for %)" };
         decoded += static_cast<char>(high * 16 + low);
         i += 2;
     }
@@ -150,7 +150,8 @@ Expected<std::unique_ptr<ResultImage>> open_name(const std::string& name, const 
 {
     const auto parts = parse_name(name);
     if (!parts)
-        return Error{ "'" + name + "': is no name of srisp's; those end in .srisp or hold .srisp?reference=…" };
+        return Error{ "'" + name +
+                      "': is not a name that srisp reads; those end in .srisp or hold .srisp?reference=…" };
     Recipe recipe;
     recipe.source = parts->source;
     recipe.path = parts->file;

@@ -45,7 +45,7 @@ bool SrispInput::open(const std::string& name, OIIO::ImageSpec& spec, const OIIO
     // OpenImageIO 2.4 sets "nowait" when it offers a file that nobody knows to every reader, and holds a lock meanwhile
     // that any call of ours would wait for.
     if (config.get_int_attribute("nowait") || !valid_file(name))
-        return fail("'" + name + "': is no recipe of srisp's");
+        return fail("'" + name + "': is not a recipe of srisp's");
     close();
     const Status opened = guarded([&]() -> Status {
         auto image = open_name(name, config);

@@ -72,7 +72,7 @@ std::string JsonObjectReader::take_text(const std::string& key)
 {
     const json& value = take(key);
     if (m_error.empty() && !value.is_string())
-        fail("'" + key + "' must be a text");
+        fail("'" + key + "' must be a string");
     return m_error.empty() ? value.get<std::string>() : std::string();
 }
 

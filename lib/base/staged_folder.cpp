@@ -66,7 +66,7 @@ Status check_target(const fs::path& target, const std::string& marker, bool repl
                        "cannot be made: the folder '" + target.parent_path().string() + "' does not exist");
     }
     if (!fs::is_directory(target, error))
-        return failure(target.string(), "exists and is no folder");
+        return failure(target.string(), "exists and is not a folder");
     if (fs::is_empty(target, error))
         return {};
     if (!fs::exists(target / marker, error))

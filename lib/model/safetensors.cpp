@@ -124,12 +124,13 @@ Expected<SafeTensorsHeader> parse_safetensors_header(const char* bytes, std::uin
                                                      const std::vector<std::string>& types, const std::string& where)
 {
     if (size < 8)
-        return Error{ where + ": no safetensors file, it has " + std::to_string(size) + " bytes, at least 8 needed" };
+        return Error{ where + ": not a safetensors file, it has " + std::to_string(size) +
+                      " bytes, at least 8 needed" };
     std::uint64_t header_bytes;
     std::memcpy(&header_bytes, bytes, 8);
     if (header_bytes > kMaxHeaderBytes || header_bytes > size - 8)
         return Error{ where + ": header of " + std::to_string(header_bytes) + " bytes, file has " +
-                      std::to_string(size - 8) + " after the length (truncated, or no safetensors file)" };
+                      std::to_string(size - 8) + " after the length (truncated, or not a safetensors file)" };
     Expected<json> parsed = parse_json_object({ bytes + 8, bytes + 8 + header_bytes }, where, "header");
     if (!parsed)
         return parsed.error();

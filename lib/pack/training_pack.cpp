@@ -163,7 +163,7 @@ Expected<std::shared_ptr<const TrainingPack>> TrainingPack::open(const std::stri
     if (!std::filesystem::is_directory(folder, ignored))
         return Error{ where + (std::filesystem::exists(folder, ignored) ? " is not a folder" : " does not exist") };
     if (!std::filesystem::exists(index_path, ignored))
-        return Error{ where + " is no training pack: it has no " + kPackIndexName };
+        return Error{ where + " is not a training pack: it has no " + kPackIndexName };
     const Expected<std::string> text = read_file(index_path, kMaxIndexBytes, where);
     if (!text)
         return text.error();

@@ -144,13 +144,13 @@ Expected<std::unique_ptr<PixelSource>> open_whole_file_source(const std::string&
     // Before OpenImageIO sees the name: it would offer it to every plugin.
     if (!std::filesystem::is_regular_file(path, ignored))
         return Error{ name + ": " +
-                      (std::filesystem::exists(path, ignored) ? "is no regular file" : "does not exist") };
+                      (std::filesystem::exists(path, ignored) ? "is not a regular file" : "does not exist") };
     OIIO::ImageSpec hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);
     auto input = OIIO::ImageInput::open(path, &hints);
     if (!input) {
         const std::string reason = OIIO::geterror();
-        return Error{ name + ": " + (reason.empty() ? "is no image that OpenImageIO reads" : reason) };
+        return Error{ name + ": " + (reason.empty() ? "is not an image that OpenImageIO reads" : reason) };
     }
     return std::unique_ptr<PixelSource>(std::make_unique<WholeFileSource>(std::move(input), path, hints, name));
 }

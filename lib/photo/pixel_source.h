@@ -30,8 +30,8 @@ public:
 /// breaks off, pixels are what its reader makes of them. Errors start with "source 'path'".
 Expected<std::unique_ptr<PixelSource>> open_file_source(const std::string& path, const OIIO::ImageSpec& config);
 
-/// The same for a regular file that must be whole: what its reader warns of is an error. `kind` says what the file is to
-/// be: "photo" gives the name "photo 'path'", and so errors start.
+/// The same for a regular file that must be whole: what its reader warns of is an error. `kind` says what the file is
+/// to be: "photo" gives the name "photo 'path'", and so errors start.
 Expected<std::unique_ptr<PixelSource>> open_whole_file_source(const std::string& path, const std::string& kind);
 
 } // namespace srisp

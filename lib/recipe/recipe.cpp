@@ -35,7 +35,7 @@ std::string resolved(const std::string& path, const Place& place)
 Status take(std::string& target, const Option& option, const json& value, const Place& place)
 {
     if (!value.is_string())
-        return Error{ "must be a text" };
+        return Error{ "must be a string" };
     target = value.get<std::string>();
     // A model is a name unless it looks like a path [Model::load].
     const bool is_path = option.type == OptionType::path ||
@@ -107,7 +107,7 @@ template<class Choice, class = std::enable_if_t<std::is_enum_v<Choice>>>
 Status take(Choice& target, const Option& option, const json& value, const Place&)
 {
     if (!value.is_string())
-        return Error{ "must be a text" };
+        return Error{ "must be a string" };
     const auto index = choice_index(option, value.get<std::string>());
     if (!index)
         return index.error();
@@ -135,7 +135,7 @@ Status check_format(const json& object)
         return Error{ "has no 'format'; this program reads " + std::string(kFormat) };
     const json& format = object["format"];
     if (!format.is_string())
-        return Error{ "'format': must be a text" };
+        return Error{ "'format': must be a string" };
     return format == kFormat ? Status()
                              : Error{ "'format': '" + format.get<std::string>() + "' is not " + std::string(kFormat) };
 }

@@ -28,15 +28,16 @@ Status check_kind(const OIIO::ImageSpec& spec, bool tiff)
         if (tiff && spec.format != OIIO::TypeUInt16 && !spec.format.is_floating_point())
             return Error{ std::string("TIFF of ") + spec.format.c_str() + " values: 16 bits or float are needed" };
     } else if (processed) {
-        return Error{ "is what srisp made of a RAW-like image, display-encoded and no reference: give a RAW file" };
-    } else if (tiff) {
         return Error{
-            "TIFF without srisp's metadata may be display-encoded and is no reference: give a RAW file, or an EXR "
-            "or TIFF that srisp wrote"
+            "is what srisp made of a RAW-like image, display-encoded and cannot be a reference: give a RAW file"
         };
+    } else if (tiff) {
+        return Error{ "TIFF without srisp's metadata may be display-encoded and cannot be a reference: give a RAW "
+                      "file, or an EXR or TIFF that srisp wrote" };
     } else if (OIIO::Strutil::istarts_with(encoding, "sRGB") || OIIO::Strutil::istarts_with(encoding, "Rec709") ||
                OIIO::Strutil::istarts_with(encoding, "Gamma")) {
-        return Error{ "is display-encoded (colour space '" + encoding + "') and no reference: give a RAW file" };
+        return Error{ "is display-encoded (colour space '" + encoding +
+                      "') and cannot be a reference: give a RAW file" };
     }
     if (spec.deep)
         return Error{ "deep image: not supported" };

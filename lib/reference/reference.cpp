@@ -75,8 +75,10 @@ Expected<Reference> load_by_type(const FileType& type, const std::string& path)
 {
     switch (type.kind) {
     case FileKind::display_encoded:
-        return Error{ "is a " + type.name +
-                      " file, which is display-encoded and no reference: give a RAW file (DNG, NEF, CR2, ...)" };
+        return Error{
+            "is a " + type.name +
+            " file, which is display-encoded and cannot be a reference: give a RAW file (DNG, NEF, CR2, ...)"
+        };
     case FileKind::foveon:
         return Error{ "Foveon sensor (three layers, no mosaic): not supported" };
     case FileKind::exr:

@@ -69,7 +69,8 @@ Expected<ChoicePtr> Chooser::known(const PixelSource& source, int subimage, cons
         return held ? held : m_kept->choices.find(key(source, subimage));
     }
     if (!m_recipe.parameters && !is_unprocessed(stored))
-        return Error{ source.name() + ": is no RAW-like image of srisp's, so it records no parameters; give params=" };
+        return Error{ source.name() +
+                      ": is not a RAW-like image of srisp's, so it records no parameters; give params=" };
     auto parameters =
         m_recipe.parameters ? Expected<Parameters>(*m_recipe.parameters) : recorded_parameters(stored, source.name());
     if (!parameters)

@@ -62,9 +62,9 @@ check "a size out of range" refused 2 "--size: Value 16 not in range 32 to 1024"
 check "a missing input" refused 1 "srisppack: input 'no' does not exist" "$srisppack" no -o x
 check "an input without images" refused 1 "srisppack: the inputs hold no photos, RAW files or cameras" "$srisppack" photos/notes.txt -o x
 check "two folders of cameras" refused 2 "two folders of cameras: 'cameras' and 'cameras'" "$srisppack" cameras --cameras cameras -o x
-check "no folder of cameras" refused 1 "'photos' is no folder of cameras" "$srisppack" --cameras photos -o x
+check "no folder of cameras" refused 1 "'photos' is not a folder of cameras" "$srisppack" --cameras photos -o x
 check "an output in no folder" refused 1 "cannot be made: the folder '$scratch/no' does not exist" "$srisppack" photos -o no/x
-check "an output that is a file" refused 1 "exists and is no folder" "$srisppack" photos -o photos/notes.txt
+check "an output that is a file" refused 1 "exists and is not a folder" "$srisppack" photos -o photos/notes.txt
 check "an output that is a pack" refused 1 "exists already; --replace makes it anew" "$srisppack" photos -o all
 check "an output that is another folder" refused 1 "holds no pack.json; it is not replaced" "$srisppack" photos -o photos --replace
 check "--open-only without a manifest" refused 1 "--open-only leaves no image: 7 are not called open in a manifest.csv" "$srisppack" photos -o x --open-only

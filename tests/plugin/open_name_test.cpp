@@ -45,7 +45,7 @@ TEST_CASE("what a query cannot say is an error that lists the near ones")
         return status.error().message;
     };
     CHECK(refused("refrence=a.dng") == "unknown option 'refrence'; did you mean 'reference'?");
-    CHECK(has(refused("reference=100%zz.dng"), "'%zz' in the query is no percent code (write %25 for %)"));
+    CHECK(has(refused("reference=100%zz.dng"), "'%zz' in the query is not a percent code (write %25 for %)"));
     CHECK(has(refused("reference=a%2"), "no percent code"));
     CHECK(has(refused("reference"), "is not key=value"));
     CHECK(has(refused("input=sgrb"), "unknown input 'sgrb'"));

@@ -290,7 +290,7 @@ TEST_CASE("what is wrong is said on opening")
     CHECK(has(refusal_of(photo + ".srisp?params=" + folder.file("p.json", "{}")), "p.json"));
     OIIO::ImageSpec nowait;
     nowait.attribute("nowait", 1);
-    CHECK(has(refusal_of(photo + ".srisp?reference=" + reference, nowait), "is no recipe"));
+    CHECK(has(refusal_of(photo + ".srisp?reference=" + reference, nowait), "is not a recipe"));
 }
 
 TEST_CASE("lazy opening reads headers only")

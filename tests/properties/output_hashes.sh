@@ -29,15 +29,15 @@ oiiotool photo.jpg --resize 300x0 --colorconvert sRGB Linear -d half --nosoftwar
     oiiotool photo.jpg --resize 300x0 --powc 2.2 -d half --nosoftwareattrib -o linear.exr
 find . -type f -exec touch -d '2020-01-01 00:00:00 UTC' {} +
 
-# show NAME FILE: the hash of a file.
-show() { printf '%s  %s\n' "$(sha256sum <"$2" | cut -d' ' -f1)" "$1"; }
+# show NAME FILE: the hash of a file, but for the path of the scratch folder.
+show() { printf '%s  %s\n' "$(sed "s,$scratch,SCRATCH,g" <"$2" | sha256sum | cut -d' ' -f1)" "$1"; }
 # run NAME COMMAND…: hashes of stdout, stderr (paths of the scratch folder taken out) and exit code.
 run() {
     name=$1
     shift
     code=0
     "$@" >"$scratch/out" 2>"$scratch/err" || code=$?
-    sed -i -e "s,$scratch,SCRATCH,g" -e 's,srisptool-[0-9A-Za-z]*,srisptool-X,g' "$scratch/out" "$scratch/err"
+    sed -i -e 's,srisptool-[-0-9A-Za-z]*,srisptool-X,g' "$scratch/out" "$scratch/err"
     show "$name: stdout" "$scratch/out"
     show "$name: stderr, exit code $code" "$scratch/err"
 }
@@ -70,7 +70,7 @@ export OIIO_LIBRARY_PATH="$plugins"
 made "plugin: query" query.exr "$stock" -i:now=1 "photo.jpg.srisp?reference=ref.dng&seed=3" -o query.exr
 run "plugin: iinfo" iinfo -v "photo.jpg.srisp?reference=ref.dng"
 echo '{ "format": "srisp-recipe-1", "source": "photo.jpg", "reference": ["ref.dng", "raw.exr"], "input": "srgb" }' >look.srisp
-made "plugin: maketx of a recipe" look.tx maketx --format exr look.srisp -o look.tx
+made "plugin: recipe" recipe.exr "$stock" -i:now=1 look.srisp -o recipe.exr
 unset OIIO_LIBRARY_PATH
 run "bake: report" srispbake --reference ref.dng --source photo.jpg
 for file in ref.dng.unprocess.clf ref.dng.process.clf; do [ ! -f $file ] || show "bake: $file" $file; done

@@ -173,7 +173,7 @@ Inputs find_inputs(const PackOptions& options)
         finder.add(input, Role::raws);
     for (const std::string& folder : options.cameras) {
         if (!is_camera_folder(folder))
-            fail("input '" + folder + "' is no folder of cameras: it has no folder 'sensitivities'");
+            fail("input '" + folder + "' is not a folder of cameras: it has no folder 'sensitivities'");
         finder.add_cameras(folder);
     }
     choose_one_for_validation(inputs.photos);

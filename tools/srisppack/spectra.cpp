@@ -28,7 +28,7 @@ double as_number(const std::string& text, const std::string& where)
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     if (text.empty() || *end != '\0' || !std::isfinite(value))
-        fail(where + ": '" + text + "' is no finite number");
+        fail(where + ": '" + text + "' is not a finite number");
     return value;
 }
 
@@ -85,7 +85,7 @@ SpectraTable read_spectra_json(const std::string& path)
         std::vector<double>& row = rows[as_number(wavelength, table.where)];
         for (const json& value : values) {
             if (!value.is_number() || !std::isfinite(value.get<double>()))
-                fail(table.where + ", " + wavelength + " nm: " + value.dump() + " is no finite number");
+                fail(table.where + ", " + wavelength + " nm: " + value.dump() + " is not a finite number");
             row.push_back(value.get<double>());
         }
     }

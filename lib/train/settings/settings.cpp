@@ -122,7 +122,7 @@ void SettingsReader::path(const char* name, std::string& value, const char*)
 {
     const json* found = find(name);
     if (found && !found->is_string())
-        fail(name, "a text", *found);
+        fail(name, "a string", *found);
     else if (found)
         value = found->get<std::string>();
 }

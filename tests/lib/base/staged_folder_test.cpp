@@ -36,7 +36,7 @@ TEST_CASE("a staged folder replaces an empty folder, or one of its kind when ask
     const std::string target = scratch.path("t");
     CHECK(refusal(scratch.path("no/t"), true) ==
           "'" + scratch.path("no/t") + "' cannot be made: the folder '" + scratch.path("no") + "' does not exist");
-    CHECK(refusal(scratch.file("file"), true) == "'" + scratch.path("file") + "' exists and is no folder");
+    CHECK(refusal(scratch.file("file"), true) == "'" + scratch.path("file") + "' exists and is not a folder");
     fs::create_directory(target);
     CHECK(refusal(target, false).empty());
     scratch.file("t/precious");

@@ -114,7 +114,7 @@ TEST_CASE("what is no training pack is refused by name")
     const ScratchFolder scratch;
     CHECK(open_error("/no/such") == "pack '/no/such' does not exist");
     CHECK(open_error(scratch.file("f")) == "pack '" + scratch.path("f") + "' is not a folder");
-    CHECK(open_error(scratch.path()) == "pack '" + scratch.path() + "' is no training pack: it has no pack.json");
+    CHECK(open_error(scratch.path()) == "pack '" + scratch.path() + "' is not a training pack: it has no pack.json");
 }
 
 TEST_CASE("files of a pack that are missing, truncated or damaged are refused")
@@ -181,7 +181,7 @@ TEST_CASE("tensors of a pack that are of another kind, or hold impossible number
         return Damaged().after_part(part, edit);
     };
     CHECK(after("raws", [](std::string& bytes) { bytes.resize(7); }) ==
-          ": raws.safetensors: no safetensors file, it has 7 bytes, at least 8 needed");
+          ": raws.safetensors: not a safetensors file, it has 7 bytes, at least 8 needed");
     CHECK(after("raws", [](std::string& bytes) {
               set_header(bytes, R"({"pixels":{"dtype":"F16","shape":[1,3,32,32],"data_offsets":[0,6144]}})");
           }) == ": raws.safetensors: tensor 'pixels' has type F16, not U16");

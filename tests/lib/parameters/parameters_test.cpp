@@ -97,7 +97,7 @@ TEST_CASE("a line that srisptool printed is parameters, too")
     const auto printed = parameters_from_json("{\"image\": \"a b.jpg\", " + text.substr(1), "test");
     REQUIRE_MESSAGE(printed, printed.error().message);
     CHECK(to_json(*printed, -1) == text);
-    CHECK(message_after([](json& o) { o["image"] = 1; }) == "parameters in 'p.json' 'image' must be a text");
+    CHECK(message_after([](json& o) { o["image"] = 1; }) == "parameters in 'p.json' 'image' must be a string");
 }
 
 TEST_CASE("an edited gain and white balance win as written")

@@ -113,7 +113,7 @@ TEST_CASE("a wrong recipe says what is wrong, and where")
     CHECK(has(refused(R"({"format": "srisp-recipe-1"})"), "has no 'source'"));
     CHECK(refused(R"({"format": "srisp-recipe-1", "refrence": "a"})") ==
           "recipe '/shots/a.srisp': unknown key 'refrence'; did you mean 'reference'?");
-    CHECK(has(refused(R"({"format": "srisp-recipe-1", "source": 3})"), "'source': must be a text"));
+    CHECK(has(refused(R"({"format": "srisp-recipe-1", "source": 3})"), "'source': must be a string"));
     CHECK(has(refused(R"({"format": "srisp-recipe-1", "seed": -3})"), "'seed': must be a whole number from 0"));
     CHECK(has(refused(R"({"format": "srisp-recipe-1", "seed": 18446744073709551616})"),
               "'seed': must be a whole number from 0 to 18446744073709551615"));

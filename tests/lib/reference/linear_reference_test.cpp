@@ -131,7 +131,7 @@ TEST_CASE("Images that are no reference are refused, each with its own message")
         write(path, OIIO::ImageSpec(20, 10, 3, OIIO::TypeUInt8), std::vector<float>(600, 0.5f));
         CHECK(refusal(path) ==
               std::string("is a ") + type +
-                  " file, which is display-encoded and no reference: give a RAW file (DNG, NEF, CR2, ...)");
+                  " file, which is display-encoded and cannot be a reference: give a RAW file (DNG, NEF, CR2, ...)");
         // The content decides, not the name.
         std::filesystem::rename(path, folder.path("renamed.dng"));
         CHECK(refusal(folder.path("renamed.dng")).find(std::string("is a ") + type) == 0);
@@ -184,5 +184,5 @@ TEST_CASE("What srisp unprocessed is a reference, as EXR and as 16-bit TIFF, upr
     const OIIO::ImageSpec processed(40, 30, 3, OIIO::TypeFloat);
     write(folder.path("f.exr"), result_of(Direction::forward, processed), std::vector<float>(3600, 0.5f));
     CHECK(refusal(folder.path("f.exr")) ==
-          "is what srisp made of a RAW-like image, display-encoded and no reference: give a RAW file");
+          "is what srisp made of a RAW-like image, display-encoded and cannot be a reference: give a RAW file");
 }

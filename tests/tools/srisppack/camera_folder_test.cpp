@@ -121,7 +121,7 @@ TEST_CASE("folders of cameras that lack something are refused by name")
     CHECK(camera_message("{}") == " has no spectral_data with index and data");
     CHECK(camera_message(spectral_json(R"("R","G")", "1,2")) == " has no column 'B'; did you mean 'G' or 'R'?");
     CHECK(camera_message(spectral_json(R"("R","G","B")", "1,2")) == ", 380.000000 nm: has 2 numbers, needs 3");
-    CHECK(camera_message(spectral_json(R"("R","G","B")", "1,2,\"x\"")) == ", 380 nm: \"x\" is no finite number");
+    CHECK(camera_message(spectral_json(R"("R","G","B")", "1,2,\"x\"")) == ", 380 nm: \"x\" is not a finite number");
     CHECK(camera_message(spectral_json(R"("R","G","B")", "1,2,3", 60)) ==
           " covers 380 to 675 nm, 400 to 700 are needed");
     CHECK(camera_message(spectral_json(R"("R","G","B")", "0,0,-1")) == ": all sensitivities are 0");
@@ -135,7 +135,7 @@ TEST_CASE("folders of cameras that lack something are refused by name")
     CHECK(message().find("the kind of light 'moon' is not known; names must begin with CIE_illum_FL, ") !=
           std::string::npos);
     scratch.file("illuminants.csv", "wavelength_nm,CIE_D_6500K\n380,1\n780,x\n");
-    CHECK(message().find(", 780 nm, 'CIE_D_6500K': 'x' is no finite number") != std::string::npos);
+    CHECK(message().find(", 780 nm, 'CIE_D_6500K': 'x' is not a finite number") != std::string::npos);
     scratch.file("illuminants.csv", "wavelength_nm,CIE_D_6500K\n380,1\n780,1\n");
     scratch.file("training_spectral.json", spectral_json(R"("a","b","c")", "1,1,1"));
     CHECK(message() == "the measured reflectances have fewer than three independent spectra");

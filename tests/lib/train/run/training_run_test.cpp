@@ -253,7 +253,7 @@ TEST_CASE("broken checkpoints are refused, each with its own message")
     fs::resize_file(path, 100);
     CHECK(message().find(where + ": header of ") == 0);
     fs::resize_file(path, 0);
-    CHECK(message() == where + ": no safetensors file, it has 0 bytes, at least 8 needed");
+    CHECK(message() == where + ": not a safetensors file, it has 0 bytes, at least 8 needed");
     fs::remove(path);
     CHECK(message() == where + ": cannot open '" + path + "': No such file or directory");
 }

@@ -75,7 +75,7 @@ TEST_CASE("impossible settings are refused, each with its own message")
     CHECK(read(R"({"count":2.5})") == "recipe 'r': 'count' must be a whole number from 1 to 9, has 2.5");
     CHECK(read(R"({"count":"4"})") == "recipe 'r': 'count' must be a whole number from 1 to 9, has \"4\"");
     CHECK(read(R"({"on":1})") == "recipe 'r': 'on' must be true or false, has 1");
-    CHECK(read(R"({"file":1})") == "recipe 'r': 'file' must be a text, has 1");
+    CHECK(read(R"({"file":1})") == "recipe 'r': 'file' must be a string, has 1");
     CHECK(read(R"({"inner":{"rate":1.5}})") == "recipe 'r': 'inner.rate' must be a number from 0 to 1, has 1.5");
     CHECK(read(R"({"inner":{"rate":null}})") == "recipe 'r': 'inner.rate' must be a number from 0 to 1, has null");
     CHECK(read(R"({"inner":{"kind":"fats"}})") ==
