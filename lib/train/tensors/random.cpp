@@ -61,9 +61,11 @@ torch::Tensor smooth_fields(Randoms& randoms, std::int64_t height, std::int64_t 
     torch::Tensor field;
     double strength = 1;
     for (int cells = 1; cells <= 8; cells *= 2, strength *= 0.6) {
-        const auto knots = noise(randoms, { 1, cells + 3, cells + 3 });
-        const auto weights = spline_weights(kSamples, cells);
-        const auto octave = torch::matmul(weights, torch::matmul(knots, weights.t()));
+        const auto knots = noise(randoms, { cells + 3, cells + 3 });
+        // One product for each image: matmul would make one of all, whose last bits some processors let depend on how
+        // many images there are.
+        const auto weights = spline_weights(kSamples, cells).expand({ knots.size(0), -1, -1 });
+        const auto octave = torch::bmm(weights, torch::bmm(knots, weights.transpose(1, 2))).unsqueeze(1);
         field = field.defined() ? field + strength * octave : octave;
     }
     field = field - field.mean({ 2, 3 }, true);

@@ -77,9 +77,10 @@ TEST_CASE("broken safetensors files are refused, each with its own message")
     const std::string data(kTwoFloats, 8);
     const auto x = [&](const std::string& entry) { return message(file_of(R"({"x":)" + entry + "}", data)); };
     CHECK(message("") == "model 'm': not a safetensors file, it has 0 bytes, at least 8 needed");
-    CHECK(message(std::string("\xff\xff\xff\xff\xff\xff\xff\xff", 8) + "{}") ==
-          "model 'm': header of 18446744073709551615 bytes, file has 2 after the length (truncated, or no safetensors "
-          "file)");
+    CHECK(
+        message(std::string("\xff\xff\xff\xff\xff\xff\xff\xff", 8) + "{}") ==
+        "model 'm': header of 18446744073709551615 bytes, file has 2 after the length (truncated, or not a safetensors "
+        "file)");
     CHECK(message(file_of("{\"x\":", data)) == "model 'm': header is not a JSON object (line 1, column 6)");
     CHECK(message(file_of("[1]", data)) == "model 'm': header is not a JSON object");
     CHECK(message(file_of(R"({"__metadata__":"no"})", "")) == "model 'm': __metadata__ is not an object");
