@@ -46,7 +46,7 @@ TEST_CASE("what a query cannot say is an error that lists the near ones")
     };
     CHECK(refused("refrence=a.dng") == "unknown option 'refrence'; did you mean 'reference'?");
     CHECK(has(refused("reference=100%zz.dng"), "'%zz' in the query is not a percent code (write %25 for %)"));
-    CHECK(has(refused("reference=a%2"), "no percent code"));
+    CHECK(has(refused("reference=a%2"), "not a percent code"));
     CHECK(has(refused("reference"), "is not key=value"));
     CHECK(has(refused("input=sgrb"), "unknown input 'sgrb'"));
     CHECK(refused("precision=fats") == "unknown precision 'fats'; did you mean 'fast'?");
