@@ -26,13 +26,11 @@ class SlotSource : public PixelSource {
 public:
     SlotSource(const std::string& id, const std::string& name) : m_id(id), m_name(name), m_key("slot " + id) {}
 
-    bool find_level(int subimage, int miplevel, OIIO::ImageSpec& spec) override
+    std::optional<OIIO::ImageSpec> find_level(int subimage, int miplevel) override
     {
         const auto slot = process_state().slots.find(m_id);
         const SlotLevel* level = find_level_of(slot.get(), subimage, miplevel);
-        if (level)
-            spec = level->spec;
-        return level != nullptr;
+        return level ? std::optional<OIIO::ImageSpec>(level->spec) : std::nullopt;
     }
 
     Status read_rows(int subimage, int miplevel, int y0, int y1, float* rows) override

@@ -5,7 +5,7 @@
 
 #include <OpenImageIO/strutil.h>
 
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "hand_over.h"
 #include "process_state.h"
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -75,10 +74,6 @@ private:
     std::size_t m_size = 0;
 };
 
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
 } // namespace
 
 Expected<std::string> read_head(const std::string& path, std::size_t limit)
@@ -118,21 +113,6 @@ Expected<FileBytes> read_whole_file(const std::string& path)
     if (failed)
         return Error{ std::strerror(failed) };
     return FileBytes{ std::move(data), size };
-}
-
-Expected<std::string> read_text_file(const std::string& path, std::size_t most)
-{
-    const auto failed = [&](const std::string& reason) { return Error{ "'" + path + "': " + reason }; };
-    const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-    if (!file)
-        return failed(std::strerror(errno));
-    std::string text(most + 1, '\0');
-    text.resize(std::fread(text.data(), 1, text.size(), file.get()));
-    if (std::ferror(file.get()))
-        return failed(std::strerror(errno));
-    if (text.size() > most)
-        return failed("has more than " + std::to_string(most) + " bytes");
-    return text;
 }
 
 } // namespace srisp

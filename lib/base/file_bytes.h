@@ -22,7 +22,4 @@ Expected<std::string> read_head(const std::string& path, std::size_t limit);
 /// The whole file, read once. The same errors, and files of more than 2 GiB (no RAW file is that large).
 Expected<FileBytes> read_whole_file(const std::string& path);
 
-/// A small text file. Errors, as `'path': reason`: missing, a folder, unreadable, more than `most` bytes.
-Expected<std::string> read_text_file(const std::string& path, std::size_t most);
-
 } // namespace srisp

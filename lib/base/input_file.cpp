@@ -34,6 +34,21 @@ Expected<std::string> read_file(const std::string& path, std::uint64_t max_bytes
     return bytes;
 }
 
+Expected<std::string> read_text_file(const std::string& path, std::size_t most)
+{
+    const auto failed = [&](const std::string& reason) { return Error{ "'" + path + "': " + reason }; };
+    const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+    if (!file)
+        return failed(std::strerror(errno));
+    std::string text(most + 1, '\0');
+    text.resize(std::fread(text.data(), 1, text.size(), file.get()));
+    if (std::ferror(file.get()))
+        return failed(std::strerror(errno));
+    if (text.size() > most)
+        return failed("has more than " + std::to_string(most) + " bytes");
+    return text;
+}
+
 Expected<MappedFile> MappedFile::open(const std::string& path)
 {
     const auto failure = [&](const std::string& reason) { return Error{ "'" + path + "' " + reason }; };

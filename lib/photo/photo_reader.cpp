@@ -103,8 +103,7 @@ Expected<PhotoFile> PhotoFile::open(const std::string& path)
     if (!source)
         return source.error();
     const std::string& where = (*source)->name();
-    OIIO::ImageSpec spec;
-    (*source)->find_level(0, 0, spec);
+    OIIO::ImageSpec spec = (*source)->find_level(0, 0).value_or(OIIO::ImageSpec());
     if (spec.width < 1 || spec.height < 1 || std::max(spec.width, spec.height) > kLargestSide)
         return Error{ where + ": has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
                       " pixels; from 1 to " + std::to_string(kLargestSide) + " a side are possible" };

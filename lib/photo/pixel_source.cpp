@@ -63,13 +63,13 @@ public:
             m_key += "\n" + hint.name().string() + "=" + hint.get_string();
     }
 
-    bool find_level(int subimage, int miplevel, OIIO::ImageSpec& spec) override
+    std::optional<OIIO::ImageSpec> find_level(int subimage, int miplevel) override
     {
         if (!m_input->seek_subimage(subimage, miplevel))
-            return false;
-        spec = m_input->spec();
+            return {};
+        OIIO::ImageSpec spec = m_input->spec();
         add_date(spec, m_path);
-        return true;
+        return spec;
     }
 
     Status read_rows(int subimage, int miplevel, int y0, int y1, float* rows) override

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <OpenImageIO/imageio.h>
@@ -14,8 +15,8 @@ class PixelSource {
 public:
     virtual ~PixelSource() = default;
 
-    /// The spec of one level; false: there is no such subimage or level.
-    virtual bool find_level(int subimage, int miplevel, OIIO::ImageSpec& spec) = 0;
+    /// The spec of one level; none: there is no such subimage or level.
+    virtual std::optional<OIIO::ImageSpec> find_level(int subimage, int miplevel) = 0;
     /// Rows y0 ≤ y < y1 of the data window (the first is 0), all channels as float.
     virtual Status read_rows(int subimage, int miplevel, int y0, int y1, float* rows) = 0;
 

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "base/near_names.h"
 #include "recipe/option_table.h"
 #include "recipe/reference_pattern.h"

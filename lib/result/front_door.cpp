@@ -31,16 +31,16 @@ std::filesystem::path temporary_name(const std::filesystem::path& path)
     return path.parent_path() / name;
 }
 
-/// Empty where all went well.
-std::string write_image(OIIO::ImageOutput& output, const std::string& path, const OIIO::ImageSpec& image,
-                        const float* pixels)
+Status write_image(OIIO::ImageOutput& output, const std::string& path, const OIIO::ImageSpec& image,
+                   const float* pixels)
 {
     OIIO::ImageSpec spec = image;
     spec.set_format(stored_type(output.format_name()));
     spec.tile_width = spec.tile_height = 0; // tiles of the photo may have a size that this writer refuses
-    const bool written = output.open(path, spec) && output.write_image(OIIO::TypeFloat, pixels) && output.close();
-    const std::string reason = written ? "" : output.geterror();
-    return written || !reason.empty() ? reason : "its writer does not say why";
+    if (output.open(path, spec) && output.write_image(OIIO::TypeFloat, pixels) && output.close())
+        return {};
+    const std::string reason = output.geterror();
+    return Error{ reason.empty() ? "its writer does not say why" : reason };
 }
 
 Expected<Image> result_of(const Recipe& recipe, Expected<std::unique_ptr<PixelSource>> source)
@@ -89,17 +89,17 @@ Status Image::save(const std::string& path) const
         if (!output)
             return Error{ where + ": " + OIIO::geterror() };
         const std::filesystem::path temporary = temporary_name(path);
-        std::string reason = write_image(*output, temporary.string(), m_spec, m_pixels.data());
+        Status written = write_image(*output, temporary.string(), m_spec, m_pixels.data());
         output.reset();
         std::error_code error;
-        if (reason.empty())
+        if (written)
             std::filesystem::rename(temporary, path, error);
         if (error)
-            reason = error.message();
-        if (reason.empty())
+            written = Error{ error.message() };
+        if (written)
             return {};
         std::filesystem::remove(temporary, error);
-        return Error{ where + ": " + reason };
+        return Error{ where + ": " + written.error().message };
     });
 }
 

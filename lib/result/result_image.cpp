@@ -41,19 +41,19 @@ Expected<ResultImage::Level*> ResultImage::level(int subimage, int miplevel)
     const auto key = std::make_pair(subimage, miplevel);
     if (const auto found = m_levels.find(key); found != m_levels.end())
         return &found->second;
-    Level level;
-    if (subimage < 0 || miplevel < 0 || !m_source->find_level(subimage, miplevel, level.stored))
+    const auto stored = subimage < 0 || miplevel < 0 ? std::nullopt : m_source->find_level(subimage, miplevel);
+    if (!stored)
         return static_cast<Level*>(nullptr);
+    Level level;
+    level.stored = *stored;
     auto converter = PhotoConverter::create(level.stored, encoding_of(m_recipe), m_source->name());
     if (!converter)
         return converter.error();
     level.converter = std::make_shared<PhotoConverter>(std::move(*converter));
     level.result = level.converter->output_spec();
     // MIP levels take the parameters of their largest.
-    OIIO::ImageSpec largest = level.stored;
-    if (miplevel > 0)
-        m_source->find_level(subimage, 0, largest);
-    auto known = m_chooser.known(*m_source, subimage, largest);
+    const auto largest = miplevel > 0 ? m_source->find_level(subimage, 0) : stored;
+    auto known = m_chooser.known(*m_source, subimage, largest ? *largest : *stored);
     if (!known)
         return known.error();
     if (*known)
