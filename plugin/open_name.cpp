@@ -7,7 +7,9 @@
 
 #include "base/input_file.h"
 #include "hand_over.h"
+#include "photo/pixel_source.h"
 #include "process_state.h"
+#include "recipe/frame_pattern.h"
 
 namespace srisp::plugin {
 
@@ -60,8 +62,14 @@ Status apply_settings(Recipe& recipe, const QueryName& parts, const OIIO::ImageS
     return check_complete(recipe, "'" + parts.file + "'");
 }
 
-Expected<std::unique_ptr<ResultImage>> open_stub(const QueryName& parts, const std::string& slot_id,
-                                                 const OIIO::ImageSpec& config)
+Expected<OpenedName> opened(Expected<std::unique_ptr<ResultImage>> result)
+{
+    if (!result)
+        return result.error();
+    return OpenedName{ std::move(*result), nullptr };
+}
+
+Expected<OpenedName> open_stub(const QueryName& parts, const std::string& slot_id, const OIIO::ImageSpec& config)
 {
     if (!process_state().slots.find(slot_id))
         return Error{ "'" + parts.file + "': the image that it stood for was in the memory of another process" };
@@ -70,7 +78,41 @@ Expected<std::unique_ptr<ResultImage>> open_stub(const QueryName& parts, const s
         return job.error();
     if (const Status applied = apply_settings(*job, parts, config); !applied)
         return applied.error();
-    return ResultImage::open(*job, open_slot_source(slot_id, job->name), config, process_state().results);
+    return opened(ResultImage::open(*job, open_slot_source(slot_id, job->name), config, process_state().results));
+}
+
+/// What srisptool lets oiiotool read in place of a photo's frames: `T/1.0007.srisp`, of which only the job `T/1.json`
+/// is on disk. None: the name is another.
+std::optional<Recipe> recipe_of_frame(const QueryName& parts)
+{
+    const StubName name = parse_stub_name(parts.file);
+    if (name.frame.empty() || !parts.query.empty() || !exists(name.job))
+        return {};
+    auto job = read_job(parts.file);
+    if (!job || job->source.empty())
+        return {};
+    std::filesystem::path source = job->source;
+    source.replace_filename(with_frame(source.filename().string(), name.frame));
+    job->source = source.string();
+    return std::move(*job);
+}
+
+Expected<OpenedName> open_recipe(const Recipe& recipe, const OIIO::ImageSpec& config)
+{
+    const std::string kind = recipe.direction == Direction::forward ? "image" : "photo";
+    const OIIO::ImageSpec hints = reading_hints(recipe, config);
+    if (parse_name(recipe.source))
+        return Error{ kind + " '" + recipe.source + "': a recipe cannot be made from a recipe" };
+    if (recipe.action == Recipe::Action::read) {
+        auto file = ImageFile::open(recipe.source, hints, kind + " '" + recipe.source + "'");
+        if (!file)
+            return file.error();
+        return OpenedName{ nullptr, std::move(*file), recipe.notes };
+    }
+    auto source = open_file_source(recipe.source, kind, hints);
+    if (!source)
+        return source.error();
+    return opened(ResultImage::open(recipe, std::move(*source), config, process_state().results));
 }
 
 } // namespace
@@ -146,7 +188,7 @@ bool is_our_name(const std::string& name)
     return text && text->find("\"srisp-") != std::string::npos;
 }
 
-Expected<std::unique_ptr<ResultImage>> open_name(const std::string& name, const OIIO::ImageSpec& config)
+Expected<OpenedName> open_name(const std::string& name, const OIIO::ImageSpec& config)
 {
     const auto parts = parse_name(name);
     if (!parts)
@@ -165,15 +207,12 @@ Expected<std::unique_ptr<ResultImage>> open_name(const std::string& name, const 
         if (!read)
             return read.error();
         recipe = *read;
+    } else if (const auto job = recipe_of_frame(*parts)) {
+        recipe = *job;
     }
     if (const Status applied = apply_settings(recipe, *parts, config); !applied)
         return applied.error();
-    if (parse_name(recipe.source))
-        return Error{ "source '" + recipe.source + "': a recipe cannot be made from a recipe" };
-    auto source = open_file_source(recipe.source, config);
-    if (!source)
-        return source.error();
-    return ResultImage::open(recipe, std::move(*source), config, process_state().results);
+    return open_recipe(recipe, config);
 }
 
 } // namespace srisp::plugin

@@ -8,6 +8,7 @@
 #include <OpenImageIO/imageio.h>
 #include <srisp/expected.h>
 
+#include "container/image_file.h"
 #include "result/result_image.h"
 
 namespace srisp::plugin {
@@ -33,8 +34,16 @@ Status apply_hints(Recipe& recipe, const OIIO::ImageSpec& config);
 /// a stub. Calls nothing of OpenImageIO's (see parse_name).
 bool is_our_name(const std::string& name);
 
-/// Opens what a host asks for: a name with a query, a recipe, a stub of the hand-over, each with configuration hints.
-Expected<std::unique_ptr<ResultImage>> open_name(const std::string& name, const OIIO::ImageSpec& config);
+/// What a name stands for: one of the two.
+struct OpenedName {
+    std::unique_ptr<ResultImage> result;
+    std::unique_ptr<ImageFile> file; ///< of a recipe that only reads its source
+    bool notes = false;              ///< are to be printed for `file`
+};
+
+/// Opens what a host asks for: a name with a query, a recipe, a frame of a job that has a source, a stub of the
+/// hand-over, each with configuration hints.
+Expected<OpenedName> open_name(const std::string& name, const OIIO::ImageSpec& config);
 
 /// Reads the job file that a stub's path (or the temporary name of one) belongs to; sets the name in it.
 Expected<Recipe> read_job(const std::string& stub_path);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <exception>
 
-#include "open_name.h"
+#include "process_state.h"
 
 namespace srisp::plugin {
 
@@ -48,10 +48,10 @@ bool SrispInput::open(const std::string& name, OIIO::ImageSpec& spec, const OIIO
         return fail("'" + name + "': is not a recipe of srisp's");
     close();
     const Status opened = guarded([&]() -> Status {
-        auto image = open_name(name, config);
-        if (!image)
-            return image.error();
-        m_image = std::move(*image);
+        auto opened_name = open_name(name, config);
+        if (!opened_name)
+            return opened_name.error();
+        m_opened = std::move(*opened_name);
         return {};
     });
     if (!opened)
@@ -65,7 +65,7 @@ bool SrispInput::open(const std::string& name, OIIO::ImageSpec& spec, const OIIO
 bool SrispInput::close()
 {
     const lock_guard lock(*this);
-    m_image.reset();
+    m_opened = {};
     m_subimage = m_miplevel = -1;
     m_spec = OIIO::ImageSpec();
     return true;
@@ -89,28 +89,53 @@ int SrispInput::current_miplevel() const
     return m_miplevel;
 }
 
+Status SrispInput::seek(int subimage, int miplevel, bool& found)
+{
+    if (ImageFile* const file = m_opened.file.get()) {
+        found = file->seek_subimage(subimage, miplevel);
+        if (found)
+            m_spec = file->spec();
+        else if (file->has_error())
+            return Error{ file->geterror() };
+        return {};
+    }
+    auto spec = m_opened.result->header(subimage, miplevel);
+    if (spec && *spec && !m_opened.result->is_lazy())
+        spec = m_opened.result->full_spec(subimage, miplevel, threads());
+    if (!spec)
+        return spec.error();
+    if ((found = *spec != nullptr))
+        m_spec = **spec;
+    return {};
+}
+
 bool SrispInput::seek_subimage(int subimage, int miplevel)
 {
     const lock_guard lock(*this);
-    if (!m_image)
+    if (!m_opened.result && !m_opened.file)
         return false;
     if (subimage == m_subimage && miplevel == m_miplevel)
         return true;
     bool found = false;
-    const Status sought = guarded([&]() -> Status {
-        auto spec = m_image->header(subimage, miplevel);
-        if (spec && *spec && !m_image->is_lazy())
-            spec = m_image->full_spec(subimage, miplevel, threads());
-        if (!spec)
-            return spec.error();
-        if ((found = *spec != nullptr)) {
-            m_spec = **spec;
-            m_subimage = subimage;
-            m_miplevel = miplevel;
-        }
-        return {};
-    });
-    return sought ? found : fail(sought.error().message);
+    const Status sought = guarded([&] { return seek(subimage, miplevel, found); });
+    if (!sought)
+        return fail(sought.error().message);
+    if (found) {
+        m_subimage = subimage;
+        m_miplevel = miplevel;
+    }
+    return found;
+}
+
+/// What reading from a file has shown goes to the user here; pixels are on their way to another command.
+bool SrispInput::finish_file_read(bool read) const
+{
+    const ImageFile& file = *m_opened.file;
+    if (!read)
+        return fail(file.geterror());
+    if (m_opened.notes)
+        process_state().results.print_notes(file.where(), file.reading_notes());
+    return true;
 }
 
 bool SrispInput::read_native_scanline(int subimage, int miplevel, int y, int z, void* data)
@@ -118,26 +143,31 @@ bool SrispInput::read_native_scanline(int subimage, int miplevel, int y, int z, 
     return read_native_scanlines(subimage, miplevel, y, y + 1, z, data);
 }
 
-bool SrispInput::read_native_scanlines(int subimage, int miplevel, int ybegin, int yend, int, void* data)
+bool SrispInput::read_native_scanlines(int subimage, int miplevel, int ybegin, int yend, int z, void* data)
 {
     const lock_guard lock(*this);
     if (!seek_subimage(subimage, miplevel))
         return false;
+    if (m_opened.file)
+        return finish_file_read(m_opened.file->read_native_scanlines(subimage, miplevel, ybegin, yend, z, data));
     const int y0 = ybegin - m_spec.y, y1 = std::min(yend - m_spec.y, m_spec.height);
     if (y0 < 0 || y0 > y1)
         return fail("scanlines " + std::to_string(ybegin) + " to " + std::to_string(yend) + " lie outside the image");
     const int width = m_spec.width;
     const std::size_t row = std::size_t(width) * m_spec.nchannels;
-    const Status read = guarded(
-        [&] { return m_image->read(subimage, miplevel, threads(), 0, width, y0, y1, static_cast<float*>(data), row); });
+    const Status read = guarded([&] {
+        return m_opened.result->read(subimage, miplevel, threads(), 0, width, y0, y1, static_cast<float*>(data), row);
+    });
     return read || fail(read.error().message);
 }
 
-bool SrispInput::read_native_tile(int subimage, int miplevel, int x, int y, int, void* data)
+bool SrispInput::read_native_tile(int subimage, int miplevel, int x, int y, int z, void* data)
 {
     const lock_guard lock(*this);
     if (!seek_subimage(subimage, miplevel))
         return false;
+    if (m_opened.file)
+        return finish_file_read(m_opened.file->read_native_tile(subimage, miplevel, x, y, z, data));
     const int x0 = x - m_spec.x, y0 = y - m_spec.y;
     if (!m_spec.tile_width || x0 < 0 || y0 < 0 || x0 >= m_spec.width || y0 >= m_spec.height)
         return fail("the image has no tile at " + std::to_string(x) + ", " + std::to_string(y));
@@ -147,8 +177,25 @@ bool SrispInput::read_native_tile(int subimage, int miplevel, int x, int y, int,
     float* tile = static_cast<float*>(data);
     std::fill_n(tile, row * m_spec.tile_height, 0.0f);
     const Status read =
-        guarded([&] { return m_image->read(subimage, miplevel, threads(), x0, x1, y0, y1, tile, row); });
+        guarded([&] { return m_opened.result->read(subimage, miplevel, threads(), x0, x1, y0, y1, tile, row); });
     return read || fail(read.error().message);
+}
+
+bool SrispInput::read_native_deep_scanlines(int subimage, int miplevel, int ybegin, int yend, int z, int chbegin,
+                                            int chend, OIIO::DeepData& deepdata)
+{
+    const lock_guard lock(*this);
+    return m_opened.file && finish_file_read(m_opened.file->read_native_deep_scanlines(subimage, miplevel, ybegin, yend,
+                                                                                       z, chbegin, chend, deepdata));
+}
+
+bool SrispInput::read_native_deep_tiles(int subimage, int miplevel, int xbegin, int xend, int ybegin, int yend,
+                                        int zbegin, int zend, int chbegin, int chend, OIIO::DeepData& deepdata)
+{
+    const lock_guard lock(*this);
+    return m_opened.file &&
+           finish_file_read(m_opened.file->read_native_deep_tiles(subimage, miplevel, xbegin, xend, ybegin, yend,
+                                                                  zbegin, zend, chbegin, chend, deepdata));
 }
 
 } // namespace srisp::plugin

@@ -7,7 +7,7 @@
 #include <OpenImageIO/imageio.h>
 #include <srisp/expected.h>
 
-#include "result/result_image.h"
+#include "open_name.h"
 
 namespace srisp::plugin {
 
@@ -17,7 +17,7 @@ namespace srisp::plugin {
 /// what open and seek_subimage leave, never from spec(): so these select the parameters, which decodes photo and
 /// reference once per process; pixels are computed when they are read. Where parameters are given, held or known
 /// already, only headers are read; `lazy=1` in a query or hint asks for that always: for looking at sizes, since the
-/// metadata may lack parameters then.
+/// metadata may lack parameters then. A recipe that only reads its source is passed on to ImageFile.
 class SrispInput final : public OIIO::ImageInput {
 public:
     ~SrispInput() override { close(); }
@@ -36,11 +36,18 @@ public:
     bool read_native_scanline(int subimage, int miplevel, int y, int z, void* data) override;
     bool read_native_scanlines(int subimage, int miplevel, int ybegin, int yend, int z, void* data) override;
     bool read_native_tile(int subimage, int miplevel, int x, int y, int z, void* data) override;
+    bool read_native_deep_scanlines(int subimage, int miplevel, int ybegin, int yend, int z, int chbegin, int chend,
+                                    OIIO::DeepData& deepdata) override;
+    bool read_native_deep_tiles(int subimage, int miplevel, int xbegin, int xend, int ybegin, int yend, int zbegin,
+                                int zend, int chbegin, int chend, OIIO::DeepData& deepdata) override;
 
 private:
     bool fail(const std::string& message) const;
 
-    std::unique_ptr<ResultImage> m_image;
+    Status seek(int subimage, int miplevel, bool& found);
+    bool finish_file_read(bool read) const;
+
+    OpenedName m_opened;
     int m_subimage = -1, m_miplevel = -1;
 };
 

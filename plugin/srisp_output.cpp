@@ -90,6 +90,9 @@ bool SrispOutput::open(const std::string& name, const OIIO::ImageSpec& spec, Ope
             return fail(name + ": a deep image cannot be unprocessed; flatten it first");
         if (spec.depth > 1)
             return fail(name + ": a volume cannot be unprocessed");
+        if (spec.width < 1 || spec.height < 1)
+            return fail(name + ": an image of " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+                        " pixels cannot be unprocessed");
         if (mode == Create) {
             m_slot.reset();
             if (const Status begun = begin(name); !begun)

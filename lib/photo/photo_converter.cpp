@@ -4,77 +4,34 @@
 #include <algorithm>
 #include <cmath>
 
-#include <OpenImageIO/strutil.h>
 #include <srisp/metadata.h>
 
+#include "color/color_reading.h"
+#include "container/file_description.h"
 #include "photo/color_channels.h"
-#include "photo/color_management.h"
 
 namespace srisp {
 
 namespace {
 
-namespace Strutil = OIIO::Strutil;
-
-/// What the names that OpenImageIO, OpenColorIO configurations and cameras use say of the encoding.
-enum class NamedSpace { unknown, srgb, linear };
-NamedSpace named_space(const std::string& name)
+ColorReading reading_of(const OIIO::ImageSpec& spec, InputEncoding encoding, int channels)
 {
-    for (const char* srgb : { "sRGB", "Gamma2.2", "GammaCorrected", "GammaCorrected2.2", "g22_rec709", "srgb_texture",
-                              "out_srgb", "Utility - sRGB - Texture", "sRGB - Texture", "sRGB Encoded Rec.709 (sRGB)" })
-        if (Strutil::iequals(name, srgb))
-            return NamedSpace::srgb;
-    for (const char* linear : { "Linear", "lin_srgb", "lin_rec709", "scene_linear", "Utility - Linear - sRGB",
-                                "Linear Rec.709 (sRGB)", "linear - sRGB", "rendering" })
-        if (Strutil::iequals(name, linear))
-            return NamedSpace::linear;
-    return NamedSpace::unknown;
-}
-
-/// What to do with colour values.
-struct Decoding {
-    bool linear = false; ///< encode with the sRGB curve
-    std::shared_ptr<const ColorTransform> transform;
-    std::vector<std::string> notes;
-};
-
-Expected<Decoding> decide_automatically(const OIIO::ImageSpec& spec, int channels, const std::string& where)
-{
-    Decoding decoding;
-    if (is_unprocessed(spec))
-        return Error{ where + ": is a RAW-like image already (srisp made it); input=srgb takes it for a photo" };
-    const std::string space = spec.get_string_attribute("oiio:ColorSpace");
-    const NamedSpace named = named_space(space);
-    const OIIO::ParamValue* icc = spec.find_attribute("ICCProfile");
-    if (named == NamedSpace::linear) {
-        decoding.linear = true;
-        // A program that made the image linear kept the profile of what it was before.
-        if (icc)
-            decoding.notes.push_back("the ICC profile was ignored, since the image says that it is linear");
-        return decoding;
+    switch (encoding) {
+    case InputEncoding::automatic:
+        return read_as_described(spec, channels);
+    case InputEncoding::linear:
+        return read_as_linear();
+    case InputEncoding::srgb:
+    case InputEncoding::camera:
+        break;
     }
-    if (icc) {
-        auto transform = color_transform_from_icc(icc->data(), icc->type().size(), channels);
-        if (!transform)
-            return Error{ where + ": " + transform.error().message + "; input=srgb ignores it" };
-        decoding.transform = *transform;
-        return decoding;
-    }
-    decoding.linear = named == NamedSpace::unknown && spec.format.is_floating_point();
-    const char* taken_as = decoding.linear ? "linear sRGB" : "display-encoded sRGB";
-    if (named == NamedSpace::unknown && !space.empty())
-        decoding.notes.push_back("the colour space '" + space + "' is not known; taken as " + taken_as);
-    // EXIF says "uncalibrated" for Adobe RGB, and OpenImageIO does not show the interoperability index that tells.
-    if (spec.get_int_attribute("Exif:ColorSpace", 1) == 65535)
-        decoding.notes.push_back(
-            "EXIF says that the colour space is not sRGB, and no ICC profile tells which; taken as "
-            "display-encoded sRGB");
-    return decoding;
+    return read_as_srgb();
 }
 
 OIIO::ImageSpec make_output_spec(const OIIO::ImageSpec& photo, const ColorChannels& channels)
 {
     OIIO::ImageSpec spec = photo;
+    erase_notes(spec);
     spec.set_format(OIIO::TypeFloat);
     spec.channelformats.clear();
     spec.channelnames = { "R", "G", "B" };
@@ -89,6 +46,19 @@ OIIO::ImageSpec make_output_spec(const OIIO::ImageSpec& photo, const ColorChanne
     }
     spec.nchannels = static_cast<int>(spec.channelnames.size());
     return spec;
+}
+
+/// What is not a number becomes 0, and infinity as much as fits any arithmetic.
+void make_finite(const float* in, std::int64_t count, float* out, PhotoCounts& counts)
+{
+    constexpr float most = 1e6f;
+    for (std::int64_t i = 0; i < count; ++i) {
+        const float value = in[i];
+        counts.replaced += value != value;
+        const float number = value == value ? value : 0;
+        out[i] = number < most ? (number > -most ? number : -most) : most;
+    }
+    counts.values += count;
 }
 
 /// Into [0,1]; what is not a number becomes 0.
@@ -137,8 +107,7 @@ struct PhotoConverter::State {
     ColorChannels channels;
     int stored_channels = 0;
     bool straight = false; ///< stored colour is not multiplied by alpha
-    bool linear = false;
-    std::shared_ptr<const ColorTransform> transform;
+    ColorTransformPtr transform;
     OIIO::ImageSpec output_spec;
     std::vector<std::string> notes;
 
@@ -185,16 +154,12 @@ Expected<PhotoConverter> PhotoConverter::create(const OIIO::ImageSpec& spec, Inp
     if (!channels)
         return channels.error();
     auto state = std::make_unique<State>();
-    if (encoding == InputEncoding::automatic) {
-        auto decoding = decide_automatically(spec, static_cast<int>(channels->color.size()), where);
-        if (!decoding)
-            return decoding.error();
-        state->linear = decoding->linear;
-        state->transform = decoding->transform;
-        state->notes = decoding->notes;
-    } else {
-        state->linear = encoding == InputEncoding::linear;
-    }
+    if (encoding == InputEncoding::automatic && is_unprocessed(spec))
+        return Error{ where + ": is a RAW-like image already (srisp made it); input=srgb takes it for a photo" };
+    ColorReading reading = reading_of(spec, encoding, static_cast<int>(channels->color.size()));
+    state->transform = std::move(reading.transform);
+    state->notes = note_list(spec);
+    state->notes.insert(state->notes.end(), reading.notes.begin(), reading.notes.end());
     state->channels = *channels;
     state->stored_channels = spec.nchannels;
     state->straight = spec.get_int_attribute("oiio:UnassociatedAlpha") != 0;
@@ -214,14 +179,13 @@ const std::vector<std::string>& PhotoConverter::notes() const
 void PhotoConverter::to_rgb(const float* stored, std::int64_t pixels, float* rgb, PhotoCounts& counts) const
 {
     const State& state = *m_state;
-    if (state.is_plain_rgb())
-        bound_values(stored, pixels * 3, rgb, counts);
-    else {
+    const float* picked = stored;
+    if (!state.is_plain_rgb()) {
         state.pick_colors(stored, pixels, rgb);
-        bound_values(rgb, pixels * 3, rgb, counts);
+        picked = rgb;
     }
-    if (state.linear)
-        std::transform(rgb, rgb + pixels * 3, rgb, srgb_encoded);
+    const bool unbounded = state.transform && state.transform->takes_unbounded();
+    (unbounded ? make_finite : bound_values)(picked, pixels * 3, rgb, counts);
     if (state.transform)
         counts.clipped += state.transform->apply(rgb, pixels);
 }

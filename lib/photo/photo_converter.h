@@ -24,14 +24,14 @@ struct PhotoCounts {
 };
 
 /// Turns the stored channels of one image into display-encoded sRGB, and results back into its channels. Grey becomes
-/// three equal channels; associated alpha is divided out before and multiplied in after; an ICC profile (RGB or grey)
-/// is converted to sRGB, relative colorimetric; linear photos are encoded; values outside [0,1] are clipped, NaN
+/// three equal channels; associated alpha is divided out before and multiplied in after; other colours than
+/// display-encoded sRGB are converted (read_as_described says by what); values outside its 0 to 1 are clipped, NaN
 /// becomes 0, both counted. Threads: an object is immutable, so any number of threads may use it.
 class PhotoConverter {
 public:
     /// `spec`: as an OpenImageIO reader gives it; `oiio:UnassociatedAlpha` in it says that colour is straight. `where`:
     /// the image's name in messages. Errors: CMYK and other colour models that are not RGB or grey, no colour channels,
-    /// deep images, volumes, a damaged ICC profile, an image that is RAW-like already.
+    /// deep images, volumes, an image that is RAW-like already.
     static Expected<PhotoConverter> create(const OIIO::ImageSpec& spec, InputEncoding encoding,
                                            const std::string& where);
     ~PhotoConverter();

@@ -99,7 +99,7 @@ Expected<Thumbnail> PhotoReader::thumbnail()
 
 Expected<PhotoFile> PhotoFile::open(const std::string& path)
 {
-    auto source = open_whole_file_source(path, "photo");
+    auto source = open_file_source(path, "photo");
     if (!source)
         return source.error();
     const std::string& where = (*source)->name();

@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <ctime>
-#include <filesystem>
 #include <vector>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/strutil.h>
 
 #include "base/recently_kept.h"
+#include "container/image_file.h"
 
 namespace srisp {
 
@@ -53,106 +52,60 @@ bool read_image_rows(OIIO::ImageInput& input, int subimage, int miplevel, int y0
 
 class FileSource : public PixelSource {
 public:
-    FileSource(std::unique_ptr<OIIO::ImageInput> input, const std::string& path, const OIIO::ImageSpec& hints)
-        : m_input(std::move(input)), m_path(path), m_key(file_state(path))
+    FileSource(std::unique_ptr<ImageFile> file, const std::string& path, const OIIO::ImageSpec& hints,
+               const std::string& name)
+        : m_file(std::move(file)), m_path(path), m_name(name), m_key(file_state(path))
     {
-        // One thread: a reader that waits for pool threads may be given other work meanwhile, such as the host's next
-        // request to this same reader.
-        m_input->threads(1);
         for (const OIIO::ParamValue& hint : hints.extra_attribs)
             m_key += "\n" + hint.name().string() + "=" + hint.get_string();
     }
 
     std::optional<OIIO::ImageSpec> find_level(int subimage, int miplevel) override
     {
-        if (!m_input->seek_subimage(subimage, miplevel))
+        if (!m_file->seek_subimage(subimage, miplevel))
             return {};
-        OIIO::ImageSpec spec = m_input->spec();
+        OIIO::ImageSpec spec = m_file->spec();
         add_date(spec, m_path);
         return spec;
     }
 
     Status read_rows(int subimage, int miplevel, int y0, int y1, float* rows) override
     {
-        if (read_image_rows(*m_input, subimage, miplevel, y0, y1, rows))
+        if (read_image_rows(*m_file, subimage, miplevel, y0, y1, rows))
             return {};
-        const std::string reason = m_input->geterror();
-        return Error{ "source '" + m_path + "': " + (reason.empty() ? "cannot be read" : reason) };
-    }
-
-    const std::string& name() const override { return m_path; }
-    const std::string& key() const override { return m_key; }
-
-protected:
-    std::unique_ptr<OIIO::ImageInput> m_input;
-
-private:
-    std::string m_path, m_key;
-};
-
-class WholeFileSource : public FileSource {
-public:
-    WholeFileSource(std::unique_ptr<OIIO::ImageInput> input, const std::string& path, const OIIO::ImageSpec& hints,
-                    const std::string& name)
-        : FileSource(std::move(input), path, hints), m_name(name)
-    {
-    }
-
-    Status read_rows(int subimage, int miplevel, int y0, int y1, float* rows) override
-    {
-        // Truncated JPEGs are read to the end, grey from where they break off; the reader's warning is all that tells.
-        if (read_image_rows(*m_input, subimage, miplevel, y0, y1, rows) && !m_input->has_error())
-            return {};
-        const std::string reason = m_input->geterror();
-        return Error{ m_name + ": damaged or truncated at row " + std::to_string(y0) +
-                      (reason.empty() ? "" : ": " + reason) };
+        const std::string reason = m_file->geterror();
+        return Error{ reason.empty() ? m_name + ": cannot be read" : reason };
     }
 
     const std::string& name() const override { return m_name; }
+    const std::string& key() const override { return m_key; }
+    const std::vector<std::string>& notes() const override { return m_file->reading_notes(); }
 
 private:
-    std::string m_name;
+    std::unique_ptr<ImageFile> m_file;
+    std::string m_path, m_name, m_key;
 };
 
 } // namespace
 
-Expected<std::unique_ptr<PixelSource>> open_file_source(const std::string& path, const OIIO::ImageSpec& config)
+OIIO::ImageSpec reading_hints(const Options& options, const OIIO::ImageSpec& config)
 {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored))
-        return Error{ "source '" + path + "': is a folder" };
-    OIIO::ImageSpec hints;
-    for (const OIIO::ParamValue& hint : config.extra_attribs)
-        if (!OIIO::Strutil::istarts_with(hint.name(), "srisp:"))
-            hints.extra_attribs.push_back(hint);
-    hints.attribute("oiio:UnassociatedAlpha", 1);
-    auto input = OIIO::ImageInput::open(path, &hints);
-    if (!input) {
-        const std::string reason = OIIO::geterror();
-        // A name may be more than a path (OpenImageIO has readers that take queries), so this is asked last.
-        if (!std::filesystem::exists(path, ignored))
-            return Error{ "source '" + path + "' does not exist" };
-        return Error{ "source '" + path + "': " + (reason.empty() ? "cannot be opened" : reason) };
-    }
-    return std::unique_ptr<PixelSource>(std::make_unique<FileSource>(std::move(input), path, hints));
+    OIIO::ImageSpec hints = config;
+    if (options.allow_partial)
+        hints.attribute("srisp:allow_partial", 1);
+    return hints;
 }
 
-Expected<std::unique_ptr<PixelSource>> open_whole_file_source(const std::string& path, const std::string& kind)
+Expected<std::unique_ptr<PixelSource>> open_file_source(const std::string& path, const std::string& kind,
+                                                        const OIIO::ImageSpec& config)
 {
-    const std::string name = kind + " '" + path + "'";
-    std::error_code ignored;
-    // Before OpenImageIO sees the name: it would offer it to every plugin.
-    if (!std::filesystem::is_regular_file(path, ignored))
-        return Error{ name + ": " +
-                      (std::filesystem::exists(path, ignored) ? "is not a regular file" : "does not exist") };
-    OIIO::ImageSpec hints;
+    OIIO::ImageSpec hints = config;
     hints.attribute("oiio:UnassociatedAlpha", 1);
-    auto input = OIIO::ImageInput::open(path, &hints);
-    if (!input) {
-        const std::string reason = OIIO::geterror();
-        return Error{ name + ": " + (reason.empty() ? "is not an image that OpenImageIO reads" : reason) };
-    }
-    return std::unique_ptr<PixelSource>(std::make_unique<WholeFileSource>(std::move(input), path, hints, name));
+    const std::string name = kind + " '" + path + "'";
+    auto file = ImageFile::open(path, hints, name);
+    if (!file)
+        return file.error();
+    return std::unique_ptr<PixelSource>(std::make_unique<FileSource>(std::move(*file), path, hints, name));
 }
 
 } // namespace srisp

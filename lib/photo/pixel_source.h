@@ -4,9 +4,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <OpenImageIO/imageio.h>
 #include <srisp/expected.h>
+#include <srisp/options.h>
 
 namespace srisp {
 
@@ -24,15 +26,20 @@ public:
     virtual const std::string& name() const = 0;
     /// Says which pixels these are, for caches: differs when the file changes.
     virtual const std::string& key() const = 0;
+    /// What reading has shown so far, beside what the spec says.
+    virtual const std::vector<std::string>& notes() const
+    {
+        static const std::vector<std::string> none;
+        return none;
+    }
 };
 
-/// Opens what any reader but our own opens: a file, or a name that a reader understands; `config`: the host's hints.
-/// Straight colour is asked for, so that nothing is lost in dark transparent pixels. Reads headers only. Where a file
-/// breaks off, pixels are what its reader makes of them. Errors start with "source 'path'".
-Expected<std::unique_ptr<PixelSource>> open_file_source(const std::string& path, const OIIO::ImageSpec& config);
+/// Hints for open_file_source and ImageFile: `config` with what a user asks for.
+OIIO::ImageSpec reading_hints(const Options& options, const OIIO::ImageSpec& config = {});
 
-/// The same for a regular file that must be whole: what its reader warns of is an error. `kind` says what the file is
-/// to be: "photo" gives the name "photo 'path'", and so errors start.
-Expected<std::unique_ptr<PixelSource>> open_whole_file_source(const std::string& path, const std::string& kind);
+/// Opens an image file as ImageFile does, colour straight; `kind` says what it is to be: "photo" gives the name
+/// "photo 'path'", and so errors start. `config`: the host's hints. Reads headers only.
+Expected<std::unique_ptr<PixelSource>> open_file_source(const std::string& path, const std::string& kind,
+                                                        const OIIO::ImageSpec& config = {});
 
 } // namespace srisp

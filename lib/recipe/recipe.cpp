@@ -189,7 +189,8 @@ Status check_complete(const Recipe& recipe, const std::string& where)
 {
     if (recipe.action == Recipe::Action::save && recipe.file.empty())
         return Error{ where + ": has no 'file' to save parameters to" };
-    const bool selects = recipe.direction == Direction::reverse && recipe.action != Recipe::Action::save;
+    const bool selects = recipe.direction == Direction::reverse && recipe.action != Recipe::Action::save &&
+                         recipe.action != Recipe::Action::read;
     if (selects && recipe.references.empty() && !recipe.parameters)
         return Error{ where + ": names no reference (a RAW file) and no parameters" };
     return {};

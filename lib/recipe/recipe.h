@@ -12,9 +12,15 @@ namespace srisp {
 /// What is to be done with one image: the contents of a `.srisp` file, of a query, or of a job that srisptool wrote.
 /// Which of it each of these may say: option_table.h.
 struct Recipe : Options {
-    enum class Action { apply, print, save };
+    enum class Action {
+        apply,
+        print, ///< the parameters that would be applied
+        save,  ///< the parameters recorded in the image
+        read   ///< gives the source as it is, its description put right
+    };
 
-    std::string source; ///< path of the photo; empty in a job, whose pixels come by hand-over
+    std::string source; ///< path of the photo; empty in a job whose pixels come by hand-over; a frame pattern in
+                        ///< one that reads frames
     Direction direction = Direction::reverse;
     std::vector<std::string> references; ///< files, folders and globs; may be empty where parameters are given
     bool lazy = false;     ///< opening reads headers only; metadata lacks parameters that must be selected

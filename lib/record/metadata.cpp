@@ -41,6 +41,11 @@ bool describes_source(OIIO::string_view name)
                                                           "photoshop:ColorMode",
                                                           "crs:",
                                                           "chromaticities",
+                                                          "CICP",
+                                                          "acesImageContainerFlag",
+                                                          "openexr:acesImageContainerFlag",
+                                                          "heif:",
+                                                          "srisp:",
                                                           "whiteLuminance",
                                                           "adoptedNeutral" };
     return std::any_of(prefixes.begin(), prefixes.end(),

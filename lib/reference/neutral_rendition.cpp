@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/matrix3.h"
-#include "photo/color_management.h"
+#include "color/color_transform.h"
 
 namespace srisp {
 

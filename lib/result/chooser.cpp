@@ -121,6 +121,7 @@ Expected<ChoicePtr> Chooser::select_new(PixelSource& source, int subimage, const
     choice->parameters.reference_hash = (*reference)->hash;
     const auto pixel_notes = photo.counts().notes();
     choice->notes.insert(choice->notes.end(), pixel_notes.begin(), pixel_notes.end());
+    choice->notes.insert(choice->notes.end(), source.notes().begin(), source.notes().end());
     return ChoicePtr(choice);
 }
 

@@ -111,7 +111,7 @@ Expected<Image> unprocess(const std::string& photo_path, const std::string& refe
         recipe.source = photo_path;
         if (!reference_path.empty())
             recipe.references = { reference_path };
-        return result_of(recipe, open_whole_file_source(photo_path, "photo"));
+        return result_of(recipe, open_file_source(photo_path, "photo", reading_hints(options)));
     });
 }
 
@@ -122,7 +122,7 @@ Expected<Image> process(const std::string& raw_path, const Options& options)
         static_cast<Options&>(recipe) = options;
         recipe.source = raw_path;
         recipe.direction = Direction::forward;
-        return result_of(recipe, open_whole_file_source(raw_path, "image"));
+        return result_of(recipe, open_file_source(raw_path, "image", reading_hints(options)));
     });
 }
 

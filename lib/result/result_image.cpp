@@ -182,8 +182,10 @@ Status ResultImage::read(int subimage, int miplevel, int threads, int x0, int x1
     if (!bands)
         return bands.error();
     const Status done = (*bands)->read(x0, x1, y0, y1, out, row_stride);
-    if (done && miplevel == 0 && (*bands)->complete())
+    if (done && miplevel == 0 && (*bands)->complete()) {
         tell(m_levels.at({ subimage, miplevel }), (*bands)->counts().notes());
+        tell(m_levels.at({ subimage, miplevel }), m_source->notes());
+    }
     return done;
 }
 

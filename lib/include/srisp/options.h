@@ -37,12 +37,13 @@ struct Options {
     std::optional<Parameters> parameters; ///< in place of selected ones (reverse) or recorded ones (forward)
     InputEncoding input = InputEncoding::automatic;
     Precision precision = Precision::float32;
-    std::uint64_t seed = 0; ///< with the photo's name it says which of several references is taken
+    bool allow_partial = false; ///< a photo that breaks off is taken as far as it goes, with a note
+    std::uint64_t seed = 0;     ///< with the photo's name it says which of several references is taken
 };
 
 /// Sets one option by its name, as a query, a recipe and srisptool do: model, params (the path of a JSON file), input
-/// (auto, srgb, linear), precision (float32, fast), seed. Errors: unknown keys and values (the near ones listed), a
-/// file that cannot be read.
+/// (auto, srgb, linear), precision (float32, fast), seed, allow_partial (0, 1).
+/// Errors: unknown keys and values (the near ones listed), a file that cannot be read.
 SRISP_API Status set_option(Options& options, const std::string& key, const std::string& value);
 
 } // namespace srisp

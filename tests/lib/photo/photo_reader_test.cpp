@@ -97,7 +97,7 @@ TEST_CASE("a photo that breaks off is an error for tools, and what its reader ma
     REQUIRE(!thumbnail);
     CHECK(thumbnail.error().message.find("photo '" + path + "': damaged or truncated at row ") == 0);
 
-    const auto source = open_file_source(path, {});
+    const auto source = open_file_source(path, "photo");
     REQUIRE(source);
     const auto spec = (*source)->find_level(0, 0);
     REQUIRE(spec);

@@ -1,45 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "photo/color_management.h"
+#include "color/icc_transform.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
-#include <vector>
+#include <string>
 
 #include <lcms2.h>
-
-#include "base/matrix3.h"
 
 namespace srisp {
 
 namespace {
-
-/// A curve over [0,1], sampled so that every 16-bit code value is a sample, linear between them.
-class Table {
-public:
-    explicit Table(const std::function<double(double)>& curve) : m_samples(kSteps + 1)
-    {
-        for (int i = 0; i <= kSteps; ++i)
-            m_samples[i] = static_cast<float>(curve(double(i) / kSteps));
-    }
-    /// `value` in [0,1].
-    float operator()(float value) const
-    {
-        const float position = value * kSteps;
-        const int index = std::min(static_cast<int>(position), kSteps - 1);
-        return m_samples[index] + (position - index) * (m_samples[index + 1] - m_samples[index]);
-    }
-
-private:
-    static constexpr int kSteps = 65535;
-    std::vector<float> m_samples;
-};
-
-double srgb_curve(double v)
-{
-    return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-}
 
 /// A context of our own keeps Little CMS from printing or sharing state with the host's use of it.
 struct LcmsContext {
@@ -55,14 +24,6 @@ struct Profile {
             cmsCloseProfile(handle);
     }
 };
-
-bool clip(float& value)
-{
-    // One 8-bit step is 0.004: rounding of a profile's numbers is no clipping.
-    const bool outside = value < -0.002f || value > 1.002f;
-    value = std::min(std::max(value, 0.0f), 1.0f);
-    return outside;
-}
 
 /// Grey profiles: one curve, taken from Little CMS at every 16-bit code value.
 class GreyTransform : public ColorTransform {
@@ -80,36 +41,7 @@ public:
     }
 
 private:
-    Table m_curve;
-};
-
-/// Matrix profiles, which nearly every photo has: Little CMS needs 300 ns per pixel for them in float, and errs by 0.05
-/// at the border of the gamut in its fast 16-bit form (measured with Display P3), so curves and matrix are run here: 20
-/// ns.
-class MatrixTransform : public ColorTransform {
-public:
-    MatrixTransform(std::array<Table, 3> curves, const Matrix3& to_linear_srgb)
-        : m_curves(std::move(curves)), m_matrix(to_linear_srgb)
-    {
-    }
-    std::int64_t apply(float* rgb, std::int64_t pixels) const override
-    {
-        std::int64_t clipped = 0;
-        for (float* p = rgb; p != rgb + pixels * 3; p += 3) {
-            const float linear[3] = { m_curves[0](p[0]), m_curves[1](p[1]), m_curves[2](p[2]) };
-            for (int c = 0; c < 3; ++c) {
-                const float* row = &m_matrix[c * 3];
-                float value = row[0] * linear[0] + row[1] * linear[1] + row[2] * linear[2];
-                clipped += clip(value);
-                p[c] = srgb_encoded(value);
-            }
-        }
-        return clipped;
-    }
-
-private:
-    std::array<Table, 3> m_curves;
-    Matrix3 m_matrix;
+    CurveTable m_curve;
 };
 
 /// Any other RGB profile: Little CMS in float, all of its precision.
@@ -150,7 +82,7 @@ bool read_colorants(cmsHPROFILE profile, Matrix3& matrix)
 }
 
 /// Null where the profile is not plain curves and matrix, or has tables that take precedence over them (ICC.1 8.10).
-std::shared_ptr<const ColorTransform> matrix_transform(cmsHPROFILE profile, cmsHPROFILE srgb)
+ColorTransformPtr matrix_transform(cmsHPROFILE profile, cmsHPROFILE srgb)
 {
     if (!cmsIsMatrixShaper(profile) || cmsIsTag(profile, cmsSigAToB0Tag) || cmsIsTag(profile, cmsSigAToB1Tag) ||
         cmsIsTag(profile, cmsSigDToB0Tag) || cmsIsTag(profile, cmsSigDToB1Tag))
@@ -164,49 +96,25 @@ std::shared_ptr<const ColorTransform> matrix_transform(cmsHPROFILE profile, cmsH
         if (!(curves[c] = static_cast<const cmsToneCurve*>(cmsReadTag(profile, tags[c]))))
             return nullptr;
     const auto table = [&](int c) {
-        return Table([&](double v) { return cmsEvalToneCurveFloat(curves[c], static_cast<float>(v)); });
+        return CurveTable([&](double v) { return cmsEvalToneCurveFloat(curves[c], static_cast<float>(v)); });
     };
-    return std::make_shared<MatrixTransform>(std::array<Table, 3>{ table(0), table(1), table(2) },
-                                             product(inverse(srgb_to_xyz), to_xyz));
-}
-
-/// Whether no colour moves by half an 8-bit step.
-bool is_identity(const ColorTransform& transform, int channels)
-{
-    constexpr int kSteps = 16;
-    std::vector<float> grid;
-    for (int r = 0; r <= kSteps; ++r)
-        for (int g = 0; g <= (channels == 1 ? 0 : kSteps); ++g)
-            for (int b = 0; b <= (channels == 1 ? 0 : kSteps); ++b)
-                for (const int v : { r, channels == 1 ? r : g, channels == 1 ? r : b })
-                    grid.push_back(float(v) / kSteps);
-    std::vector<float> moved = grid;
-    transform.apply(moved.data(), static_cast<std::int64_t>(moved.size() / 3));
-    for (std::size_t i = 0; i < grid.size(); ++i)
-        if (std::fabs(moved[i] - grid[i]) > 0.5f / 255)
-            return false;
-    return true;
+    return curves_and_matrix({ table(0), table(1), table(2) }, product(inverse(srgb_to_xyz), to_xyz));
 }
 
 std::string signature_text(cmsColorSpaceSignature signature)
 {
     std::string text;
-    for (int shift = 24; shift >= 0; shift -= 8)
-        text += static_cast<char>(signature >> shift & 0xff);
+    for (int shift = 24; shift >= 0; shift -= 8) {
+        const unsigned byte = signature >> shift & 0xff;
+        text += byte >= ' ' && byte <= '~' ? static_cast<char>(byte) : '?'; // of a damaged profile
+    }
     text.erase(text.find_last_not_of(' ') + 1);
     return text;
 }
 
 } // namespace
 
-float srgb_encoded(float linear)
-{
-    static const Table table(srgb_curve);
-    return table(std::min(std::max(linear, 0.0f), 1.0f));
-}
-
-Expected<std::shared_ptr<const ColorTransform>> color_transform_from_icc(const void* data, std::size_t size,
-                                                                         int channels)
+Expected<ColorTransformPtr> color_transform_from_icc(const void* data, std::size_t size, int channels)
 {
     const auto context = std::make_shared<LcmsContext>();
     const Profile profile{ cmsOpenProfileFromMemTHR(context->context, data, static_cast<cmsUInt32Number>(size)) };
@@ -218,7 +126,7 @@ Expected<std::shared_ptr<const ColorTransform>> color_transform_from_icc(const v
                       (channels == 1 ? "grey" : "RGB") + " channels" };
 
     const Profile srgb{ cmsCreate_sRGBProfileTHR(context->context) };
-    std::shared_ptr<const ColorTransform> result;
+    ColorTransformPtr result;
     if (channels == 3)
         result = matrix_transform(profile.handle, srgb.handle);
     if (!result) {

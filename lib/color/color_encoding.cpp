@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "color/color_encoding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include <OpenImageIO/strutil.h>
+
+namespace srisp {
+
+namespace {
+
+namespace Strutil = OIIO::Strutil;
+
+constexpr Chromaticities kAp1{ 0.713f, 0.293f, 0.165f, 0.830f, 0.128f, 0.044f, 0.32168f, 0.33767f };
+constexpr Chromaticities kRec2020{ 0.708f, 0.292f, 0.170f, 0.797f, 0.131f, 0.046f, 0.3127f, 0.3290f };
+constexpr Chromaticities kDisplayP3{ 0.680f, 0.320f, 0.265f, 0.690f, 0.150f, 0.060f, 0.3127f, 0.3290f };
+constexpr Chromaticities kAdobeRgb{ 0.64f, 0.33f, 0.21f, 0.71f, 0.15f, 0.06f, 0.3127f, 0.3290f };
+
+struct Name {
+    const char* name;
+    Transfer transfer;
+    float gamma;
+    const Chromaticities* chromaticities; ///< null: the name does not say
+};
+constexpr Name kNames[] = {
+    { "sRGB", Transfer::srgb, 1, nullptr },
+    { "Rec709", Transfer::srgb, 1, nullptr },
+    { "GammaCorrected", Transfer::srgb, 1, nullptr },
+    { "g22_rec709", Transfer::srgb, 1, nullptr },
+    { "srgb_texture", Transfer::srgb, 1, nullptr },
+    { "out_srgb", Transfer::srgb, 1, nullptr },
+    { "Utility - sRGB - Texture", Transfer::srgb, 1, nullptr },
+    { "sRGB - Texture", Transfer::srgb, 1, nullptr },
+    { "sRGB Encoded Rec.709 (sRGB)", Transfer::srgb, 1, nullptr },
+    { "AdobeRGB", Transfer::power, 563 / 256.0f, &kAdobeRgb },
+    { "Linear", Transfer::linear, 1, nullptr },
+    { "scene_linear", Transfer::linear, 1, nullptr },
+    { "rendering", Transfer::linear, 1, nullptr },
+    { "lin_srgb", Transfer::linear, 1, &kSrgbChromaticities },
+    { "lin_rec709", Transfer::linear, 1, &kSrgbChromaticities },
+    { "Utility - Linear - sRGB", Transfer::linear, 1, &kSrgbChromaticities },
+    { "Linear Rec.709 (sRGB)", Transfer::linear, 1, &kSrgbChromaticities },
+    { "linear - sRGB", Transfer::linear, 1, &kSrgbChromaticities },
+    { "ACES2065-1", Transfer::linear, 1, &kAp0Chromaticities },
+    { "lin_ap0", Transfer::linear, 1, &kAp0Chromaticities },
+    { "ACEScg", Transfer::linear, 1, &kAp1 },
+    { "lin_ap1", Transfer::linear, 1, &kAp1 },
+    { "lin_rec2020", Transfer::linear, 1, &kRec2020 },
+    { "Linear Rec.2020", Transfer::linear, 1, &kRec2020 },
+    { "lin_p3d65", Transfer::linear, 1, &kDisplayP3 },
+    { "Linear P3-D65", Transfer::linear, 1, &kDisplayP3 },
+    { "lin_adobergb", Transfer::linear, 1, &kAdobeRgb },
+    { "Linear AdobeRGB", Transfer::linear, 1, &kAdobeRgb },
+};
+
+/// The exponent in "Gamma1.8" or "GammaCorrected1.8", as OpenImageIO's readers write it.
+std::optional<float> gamma_in_name(const std::string& name)
+{
+    for (const char* prefix : { "GammaCorrected", "Gamma" }) {
+        if (!Strutil::istarts_with(name, prefix))
+            continue;
+        const std::string number = name.substr(std::string(prefix).size());
+        char* end = nullptr;
+        const float gamma = std::strtof(number.c_str(), &end);
+        if (!number.empty() && *end == '\0' && gamma > 0.01f && gamma < 100)
+            return gamma;
+    }
+    return {};
+}
+
+struct CicpPrimaries {
+    int code;
+    Chromaticities chromaticities;
+};
+constexpr CicpPrimaries kCicpPrimaries[] = {
+    { 1, kSrgbChromaticities },
+    { 4, { 0.67f, 0.33f, 0.21f, 0.71f, 0.14f, 0.08f, 0.310f, 0.316f } },
+    { 5, { 0.64f, 0.33f, 0.29f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f } },
+    { 6, { 0.630f, 0.340f, 0.310f, 0.595f, 0.155f, 0.070f, 0.3127f, 0.3290f } },
+    { 7, { 0.630f, 0.340f, 0.310f, 0.595f, 0.155f, 0.070f, 0.3127f, 0.3290f } },
+    { 8, { 0.681f, 0.319f, 0.243f, 0.692f, 0.145f, 0.049f, 0.310f, 0.316f } },
+    { 9, kRec2020 },
+    { 10, { 1, 0, 0, 1, 0, 0, 1.0f / 3, 1.0f / 3 } },
+    { 11, { 0.680f, 0.320f, 0.265f, 0.690f, 0.150f, 0.060f, 0.314f, 0.351f } },
+    { 12, kDisplayP3 },
+    { 22, { 0.630f, 0.340f, 0.295f, 0.605f, 0.155f, 0.077f, 0.3127f, 0.3290f } },
+};
+
+struct CicpTransfer {
+    int code;
+    Transfer transfer;
+    float gamma;
+};
+constexpr CicpTransfer kCicpTransfers[] = {
+    { 1, Transfer::srgb, 1 },   { 4, Transfer::power, 2.2f },  { 5, Transfer::power, 2.8f }, { 6, Transfer::srgb, 1 },
+    { 8, Transfer::linear, 1 }, { 13, Transfer::srgb, 1 },     { 14, Transfer::srgb, 1 },    { 15, Transfer::srgb, 1 },
+    { 16, Transfer::pq, 1 },    { 17, Transfer::power, 2.6f }, { 18, Transfer::hlg, 1 },
+};
+constexpr int kUnspecified = 2;
+
+double srgb_to_linear(double v)
+{
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+/// In units of the reference white of 203 cd/m² [ITU-R BT.2408].
+constexpr double kReferenceWhite = 203;
+
+double pq_to_linear(double v)
+{
+    constexpr double m1 = 0.1593017578125, m2 = 78.84375, c1 = 0.8359375, c2 = 18.8515625, c3 = 18.6875;
+    const double root = std::pow(v, 1 / m2);
+    return std::pow(std::max(root - c1, 0.0) / (c2 - c3 * root), 1 / m1) * 10000 / kReferenceWhite;
+}
+
+/// On a display of 1000 cd/m²; its system gamma is taken channel by channel, which is exact for greys.
+double hlg_to_linear(double v)
+{
+    constexpr double a = 0.17883277, b = 0.28466892, c = 0.55991073;
+    const double scene = v <= 0.5 ? v * v / 3 : (std::exp((v - c) / a) + b) / 12;
+    return std::pow(scene, 1.2) * 1000 / kReferenceWhite;
+}
+
+double to_linear(const ColorEncoding& encoding, double v)
+{
+    switch (encoding.transfer) {
+    case Transfer::srgb:
+        return srgb_to_linear(v);
+    case Transfer::power:
+        return std::pow(v, double(encoding.gamma));
+    case Transfer::pq:
+        return pq_to_linear(v);
+    case Transfer::hlg:
+        return hlg_to_linear(v);
+    case Transfer::linear:
+        break;
+    }
+    return v;
+}
+
+/// XYZ of the colour with this xy and Y = 1.
+std::array<float, 3> xyz_of(float x, float y)
+{
+    return { x / y, 1, (1 - x - y) / y };
+}
+
+std::array<float, 3> times(const Matrix3& m, const std::array<float, 3>& v)
+{
+    std::array<float, 3> result;
+    for (int row = 0; row < 3; ++row)
+        result[row] = m[row * 3] * v[0] + m[row * 3 + 1] * v[1] + m[row * 3 + 2] * v[2];
+    return result;
+}
+
+Matrix3 primaries_of(const Chromaticities& c)
+{
+    // Directions only, so that a y of 0 is allowed.
+    return { c[0], c[2], c[4], c[1], c[3], c[5], 1 - c[0] - c[1], 1 - c[2] - c[3], 1 - c[4] - c[5] };
+}
+
+/// Linear RGB → XYZ, where (1,1,1) is the white with Y = 1.
+Matrix3 rgb_to_xyz(const Chromaticities& c)
+{
+    Matrix3 matrix = primaries_of(c);
+    const std::array<float, 3> amounts = times(inverse(matrix), xyz_of(c[6], c[7]));
+    for (int i = 0; i < 9; ++i)
+        matrix[i] *= amounts[i % 3];
+    return matrix;
+}
+
+/// Linear RGB of the chromaticities → linear sRGB.
+Matrix3 to_linear_srgb(const Chromaticities& from)
+{
+    constexpr Matrix3 bradford{ 0.8951f, 0.2664f, -0.1614f, -0.7502f, 1.7135f, 0.0367f, 0.0389f, -0.0685f, 1.0296f };
+    const auto old_white = times(bradford, xyz_of(from[6], from[7]));
+    const auto new_white = times(bradford, xyz_of(kSrgbChromaticities[6], kSrgbChromaticities[7]));
+    Matrix3 scale{};
+    for (int c = 0; c < 3; ++c)
+        scale[c * 4] = new_white[c] / old_white[c];
+    const Matrix3 adapted = product(inverse(bradford), product(scale, product(bradford, rgb_to_xyz(from))));
+    return row_normalized(product(inverse(rgb_to_xyz(kSrgbChromaticities)), adapted));
+}
+
+} // namespace
+
+std::optional<NamedEncoding> named_encoding(const std::string& name)
+{
+    for (const Name& known : kNames)
+        if (Strutil::iequals(name, known.name))
+            return NamedEncoding{ { known.transfer, known.gamma,
+                                    known.chromaticities ? *known.chromaticities : kSrgbChromaticities },
+                                  known.chromaticities != nullptr };
+    if (const auto gamma = gamma_in_name(name))
+        return NamedEncoding{ { Transfer::power, *gamma, kSrgbChromaticities }, false };
+    return {};
+}
+
+std::optional<ColorEncoding> cicp_encoding(const std::array<int, 4>& cicp, std::vector<std::string>& notes)
+{
+    if (cicp[0] == kUnspecified && cicp[1] == kUnspecified)
+        return {};
+    ColorEncoding encoding;
+    const auto primaries = std::find_if(std::begin(kCicpPrimaries), std::end(kCicpPrimaries),
+                                        [&](const CicpPrimaries& known) { return known.code == cicp[0]; });
+    if (primaries != std::end(kCicpPrimaries))
+        encoding.chromaticities = primaries->chromaticities;
+    else if (cicp[0] != kUnspecified)
+        notes.push_back("colour primaries " + std::to_string(cicp[0]) + " of its CICP are not known; taken as sRGB's");
+    const auto transfer = std::find_if(std::begin(kCicpTransfers), std::end(kCicpTransfers),
+                                       [&](const CicpTransfer& known) { return known.code == cicp[1]; });
+    if (transfer != std::end(kCicpTransfers)) {
+        encoding.transfer = transfer->transfer;
+        encoding.gamma = transfer->gamma;
+    } else if (cicp[1] != kUnspecified) {
+        notes.push_back("transfer function " + std::to_string(cicp[1]) + " of its CICP is not known; taken as sRGB's");
+    }
+    if (encoding.transfer == Transfer::pq || encoding.transfer == Transfer::hlg)
+        notes.push_back(std::string("is an HDR image (") + (encoding.transfer == Transfer::pq ? "PQ" : "HLG") +
+                        "); 203 cd/m² was taken as white, and what is brighter was clipped");
+    return encoding;
+}
+
+bool are_usable(const Chromaticities& c)
+{
+    for (const float number : c)
+        if (!std::isfinite(number) || std::fabs(number) > 10)
+            return false;
+    if (c[6] <= 0 || c[7] <= 0 || std::fabs(determinant(primaries_of(c))) < 1e-4)
+        return false;
+    // White must lie among the primaries, and every colour must have a place in sRGB.
+    const Matrix3 matrix = to_linear_srgb(c);
+    const Matrix3 xyz = rgb_to_xyz(c);
+    return std::all_of(matrix.begin(), matrix.end(), [](float v) { return std::isfinite(v) && std::fabs(v) < 100; }) &&
+           xyz[3] + xyz[4] + xyz[5] > 0.5f;
+}
+
+ColorTransformPtr transform_of(const ColorEncoding& encoding, int channels)
+{
+    constexpr Matrix3 identity{ 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+    const Matrix3 matrix = channels == 1 || encoding.chromaticities == kSrgbChromaticities
+                               ? identity
+                               : to_linear_srgb(encoding.chromaticities);
+    if (encoding.transfer == Transfer::linear)
+        return linear_matrix(matrix);
+    const CurveTable table([&](double v) { return to_linear(encoding, v); });
+    const ColorTransformPtr transform = curves_and_matrix({ table, table, table }, matrix);
+    return is_identity(*transform, channels) ? nullptr : transform;
+}
+
+} // namespace srisp

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "container/image_file.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+
+#include "base/file_bytes.h"
+#include "container/file_description.h"
+#include "container/jpeg_damage.h"
+#include "container/reader_name.h"
+#include "container/webp_input.h"
+
+namespace srisp {
+
+namespace {
+
+/// What is known of the pictures that one of OpenImageIO's readers gives.
+struct Container {
+    const char* reader;
+    bool first_only = false;     ///< further subimages are other pictures: frames, layers, sizes
+    bool straight_alpha = false; ///< colour is straight, though the reader may not say so
+    void (*describe)(const std::string& path, OIIO::ImageSpec& spec) = nullptr;
+};
+constexpr Container kContainers[] = {
+    { "bmp", false, true, describe_bmp },
+    { "dpx", false, true },
+    { "gif", true, true },
+    { "heif", true, true, describe_heif },
+    { "ico", true, true },
+    { "jpeg2000", false, true },
+    { "png", false, true, describe_png },
+    { "psd", true, true, describe_psd },
+    { "sgi", false, true },
+    { "webp", true, true },
+};
+
+const Container& container_of(const char* reader)
+{
+    static constexpr Container kOther{ "" };
+    const auto found = std::find_if(std::begin(kContainers), std::end(kContainers),
+                                    [&](const Container& known) { return std::strcmp(known.reader, reader) == 0; });
+    return found == std::end(kContainers) ? kOther : *found;
+}
+
+Expected<std::unique_ptr<OIIO::ImageInput>> open_by(const std::string& reader, const std::string& path,
+                                                    const OIIO::ImageSpec& hints)
+{
+    if (reader == "webp")
+        return open_webp(path);
+    auto input = OIIO::ImageInput::create(reader);
+    OIIO::ImageSpec spec;
+    if (input && input->open(path, spec, hints))
+        return input;
+    const std::string reason = input ? input->geterror() : OIIO::geterror();
+    return Error{ reason.empty() ? "is damaged, its reader does not say how" : reason };
+}
+
+Expected<std::unique_ptr<OIIO::ImageInput>> open_file(const std::string& path, const OIIO::ImageSpec& hints)
+{
+    const auto head = read_head(path, kReaderHeadBytes);
+    if (!head)
+        return head.error();
+    const std::string reader = reader_name(*head, path);
+    if (reader.empty())
+        return Error{ "is not an image that OpenImageIO reads" };
+    return open_by(reader, path, hints);
+}
+
+/// Of integers that nothing names, or whose name nobody knows, since what an image was is forgotten once a program has
+/// made it float. Every PNM is "Rec709" to its reader, whatever it holds.
+void name_color_space(OIIO::ImageSpec& spec)
+{
+    const std::string name = spec.get_string_attribute("oiio:ColorSpace");
+    if (spec.format.is_floating_point() || !(name.empty() || name == "Rec709"))
+        return;
+    spec.attribute("oiio:ColorSpace", "sRGB");
+}
+
+/// OpenImageIO turns these right up to 8 bits, alpha included.
+bool is_min_is_white(const OIIO::ImageSpec& spec)
+{
+    return spec.get_int_attribute("tiff:PhotometricInterpretation", 1) == 0;
+}
+
+template<class Value> void invert(void* data, std::size_t count)
+{
+    Value* const values = static_cast<Value*>(data);
+    for (std::size_t i = 0; i < count; ++i)
+        values[i] = static_cast<Value>(~values[i]);
+}
+
+} // namespace
+
+Expected<std::unique_ptr<ImageFile>> ImageFile::open(const std::string& path, const OIIO::ImageSpec& config,
+                                                     const std::string& where)
+{
+    OIIO::ImageSpec hints;
+    for (const OIIO::ParamValue& hint : config.extra_attribs)
+        if (hint.name().string().rfind("srisp:", 0) != 0)
+            hints.extra_attribs.push_back(hint);
+    // Colour is asked for straight, so that nothing is lost in dark transparent pixels.
+    hints.attribute("oiio:UnassociatedAlpha", 1);
+
+    std::error_code ignored;
+    Expected<std::unique_ptr<OIIO::ImageInput>> inner = Error{ "" };
+    if (std::filesystem::is_regular_file(path, ignored)) {
+        inner = open_file(path, hints);
+    } else if (std::filesystem::exists(path, ignored)) {
+        inner = Error{ std::filesystem::is_directory(path, ignored) ? "is a folder" : "is not a regular file" };
+    } else if (path.find('?') == std::string::npos) {
+        inner = Error{ "does not exist" };
+    } else if (auto input = OIIO::ImageInput::open(path, &hints)) {
+        inner = std::move(input);
+    } else {
+        inner = Error{ OIIO::geterror() };
+    }
+    if (!inner)
+        return Error{ where + ": " + inner.error().message };
+    auto file = std::unique_ptr<ImageFile>(new ImageFile(std::move(*inner), path, config, where));
+    if (!file->seek_subimage(0, 0))
+        return Error{ file->geterror() };
+    return file;
+}
+
+ImageFile::ImageFile(std::unique_ptr<OIIO::ImageInput> inner, const std::string& path, const OIIO::ImageSpec& config,
+                     const std::string& where)
+    : m_inner(std::move(inner)), m_path(path), m_where(where),
+      m_wants_straight(config.get_int_attribute("oiio:UnassociatedAlpha") != 0),
+      m_allows_partial(config.get_int_attribute("srisp:allow_partial") != 0)
+{
+    // One thread: a reader that waits for pool threads may be given other work meanwhile, such as the host's next
+    // request to this same reader.
+    m_inner->threads(1);
+}
+
+bool ImageFile::seek_subimage(int subimage, int miplevel)
+{
+    const lock_guard lock(*this);
+    if (subimage == m_subimage && miplevel == m_miplevel)
+        return true;
+    const Container& container = container_of(m_inner->format_name());
+    if ((container.first_only && subimage > 0) || !m_inner->seek_subimage(subimage, miplevel))
+        return false;
+    OIIO::ImageSpec spec = m_inner->spec();
+    if (spec.width < 1 || spec.height < 1) {
+        errorfmt("{}: has {} x {} pixels", m_where, spec.width, spec.height);
+        return false;
+    }
+    if (container.straight_alpha)
+        spec.attribute("oiio:UnassociatedAlpha", 1);
+    if (container.describe && subimage == 0)
+        container.describe(m_path, spec);
+    else if (spec.get_int_attribute("oiio:Movie") && spec.get_int_attribute("oiio:subimages", 2) > 1)
+        add_note(spec, "is an animation; its first frame was taken");
+    name_color_space(spec);
+
+    const bool white_is_0 = is_min_is_white(spec);
+    if (white_is_0 && (spec.format.is_floating_point() || spec.nchannels > 1)) {
+        errorfmt("{}: stores white as 0 (PhotometricInterpretation 0) in {}, which is not supported", m_where,
+                 spec.nchannels > 1 ? "an image with alpha" : "floating point");
+        return false;
+    }
+    m_inverts = white_is_0 && spec.format.size() > 1;
+    const bool straight = spec.get_int_attribute("oiio:UnassociatedAlpha") != 0 && spec.alpha_channel >= 0;
+    m_associates = straight && !m_wants_straight;
+    if (!straight || m_associates)
+        spec.erase_attribute("oiio:UnassociatedAlpha");
+    m_spec = std::move(spec);
+    m_subimage = subimage;
+    m_miplevel = miplevel;
+    return true;
+}
+
+/// What the reader made of some rows or a tile.
+bool ImageFile::accept(bool read, int y, void* data, std::size_t bytes)
+{
+    if (read && !m_inner->has_error())
+        return true;
+    std::string reason = m_inner->geterror();
+    if (read && !m_notes.empty())
+        return true; // told already
+    if (std::strcmp(format_name(), "jpeg") == 0) {
+        const JpegDamage damage = find_jpeg_damage(m_path);
+        reason = damage.text;
+        if (read && !damage.pixels_missing) {
+            m_notes = { "is damaged, though no pixel is missing: " + reason };
+            return true;
+        }
+    }
+    const std::string what = "damaged or truncated at row " + std::to_string(y) + (reason.empty() ? "" : ": " + reason);
+    if (!m_allows_partial) {
+        errorfmt("{}: {}", m_where, what);
+        return false;
+    }
+    if (!read)
+        std::memset(data, 0, bytes);
+    if (m_notes.empty())
+        m_notes = { what + "; the rest was left as its reader gives it" };
+    return true;
+}
+
+void ImageFile::put_right(void* data, int width, int height) const
+{
+    const std::size_t values = std::size_t(width) * static_cast<std::size_t>(height * m_spec.nchannels);
+    if (m_inverts && m_spec.format.size() == 2)
+        invert<std::uint16_t>(data, values);
+    else if (m_inverts)
+        invert<std::uint32_t>(data, values);
+    if (m_associates && m_spec.channelformats.empty())
+        OIIO::premult(m_spec.nchannels, width, height, 1, 0, m_spec.nchannels, m_spec.format, data, OIIO::AutoStride,
+                      OIIO::AutoStride, OIIO::AutoStride, m_spec.alpha_channel, m_spec.z_channel);
+}
+
+bool ImageFile::read_native_scanline(int subimage, int miplevel, int y, int z, void* data)
+{
+    return read_native_scanlines(subimage, miplevel, y, y + 1, z, data);
+}
+
+bool ImageFile::read_native_scanlines(int subimage, int miplevel, int ybegin, int yend, int z, void* data)
+{
+    const lock_guard lock(*this);
+    if (!seek_subimage(subimage, miplevel))
+        return false;
+    const int end = std::min(yend, m_spec.y + m_spec.height), rows = end - ybegin;
+    const bool read = m_inner->read_native_scanlines(subimage, miplevel, ybegin, end, z, data);
+    if (!accept(read, ybegin - m_spec.y, data, m_spec.scanline_bytes(true) * static_cast<std::size_t>(rows)))
+        return false;
+    put_right(data, m_spec.width, rows);
+    return true;
+}
+
+bool ImageFile::read_native_tile(int subimage, int miplevel, int x, int y, int z, void* data)
+{
+    const lock_guard lock(*this);
+    if (!seek_subimage(subimage, miplevel))
+        return false;
+    const bool read = m_inner->read_native_tile(subimage, miplevel, x, y, z, data);
+    if (!accept(read, y - m_spec.y, data, m_spec.tile_bytes(true)))
+        return false;
+    put_right(data, m_spec.tile_width, m_spec.tile_height);
+    return true;
+}
+
+bool ImageFile::read_native_deep_scanlines(int subimage, int miplevel, int ybegin, int yend, int z, int chbegin,
+                                           int chend, OIIO::DeepData& deepdata)
+{
+    return m_inner->read_native_deep_scanlines(subimage, miplevel, ybegin, yend, z, chbegin, chend, deepdata);
+}
+
+bool ImageFile::read_native_deep_tiles(int subimage, int miplevel, int xbegin, int xend, int ybegin, int yend,
+                                       int zbegin, int zend, int chbegin, int chend, OIIO::DeepData& deepdata)
+{
+    return m_inner->read_native_deep_tiles(subimage, miplevel, xbegin, xend, ybegin, yend, zbegin, zend, chbegin, chend,
+                                           deepdata);
+}
+
+} // namespace srisp
