@@ -152,8 +152,10 @@ bool ImageFile::seek_subimage(int subimage, int miplevel)
         spec.attribute("oiio:UnassociatedAlpha", 1);
     if (container.describe && subimage == 0)
         container.describe(m_path, spec);
-    else if (spec.get_int_attribute("oiio:Movie") && spec.get_int_attribute("oiio:subimages", 2) > 1)
+    else if (spec.get_int_attribute("oiio:Movie") && m_inner->seek_subimage(1, 0)) {
+        m_inner->seek_subimage(0, 0);
         add_note(spec, "is an animation; its first frame was taken");
+    }
     name_color_space(spec);
 
     const bool white_is_0 = is_min_is_white(spec);

@@ -27,4 +27,3 @@ TEST_CASE("the sRGB curve's table is exact to 5e-7")
     INFO("largest difference " << worst);
     CHECK(worst < 5e-7);
 }
-

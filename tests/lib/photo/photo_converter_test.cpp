@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include <doctest/doctest.h>
 #include <srisp/metadata.h>
 
 #include "container/file_description.h"

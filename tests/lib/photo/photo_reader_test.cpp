@@ -84,7 +84,7 @@ TEST_CASE("rows of bands that overlap are those of the whole, and each is read o
     CHECK(broken.error().message == "breaks off");
 }
 
-TEST_CASE("a photo that breaks off is an error for tools, and what its reader makes of it for hosts")
+TEST_CASE("a photo that breaks off is an error, and taken as far as it goes where that is allowed")
 {
     const ScratchFolder folder;
     std::ifstream whole(std::string(SRISP_SOURCE_DIR) + "/configs/sample/photo.jpg", std::ios::binary);
@@ -97,10 +97,13 @@ TEST_CASE("a photo that breaks off is an error for tools, and what its reader ma
     REQUIRE(!thumbnail);
     CHECK(thumbnail.error().message.find("photo '" + path + "': damaged or truncated at row ") == 0);
 
-    const auto source = open_file_source(path, "photo");
+    Options options;
+    options.allow_partial = true;
+    const auto source = open_file_source(path, "photo", reading_hints(options));
     REQUIRE(source);
     const auto spec = (*source)->find_level(0, 0);
     REQUIRE(spec);
     std::vector<float> rows(std::size_t(spec->width) * spec->height * spec->nchannels);
     CHECK((*source)->read_rows(0, 0, 0, spec->height, rows.data()));
+    CHECK((*source)->notes().size() == 1);
 }
