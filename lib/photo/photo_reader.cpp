@@ -97,9 +97,9 @@ Expected<Thumbnail> PhotoReader::thumbnail()
     return builder.finish(m_orientation);
 }
 
-Expected<PhotoFile> PhotoFile::open(const std::string& path)
+Expected<PhotoFile> PhotoFile::open(const std::string& path, const Options& options)
 {
-    auto source = open_file_source(path, "photo");
+    auto source = open_file_source(path, "photo", reading_hints(options));
     if (!source)
         return source.error();
     const std::string& where = (*source)->name();
@@ -107,10 +107,18 @@ Expected<PhotoFile> PhotoFile::open(const std::string& path)
     if (spec.width < 1 || spec.height < 1 || std::max(spec.width, spec.height) > kLargestSide)
         return Error{ where + ": has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
                       " pixels; from 1 to " + std::to_string(kLargestSide) + " a side are possible" };
-    auto converter = PhotoConverter::create(spec, InputEncoding::automatic, where);
+    auto converter = PhotoConverter::create(spec, options.input, where);
     if (!converter)
         return converter.error();
     return PhotoFile(std::move(*source), std::move(spec), std::move(*converter));
+}
+
+std::vector<std::string> PhotoFile::notes(const PhotoCounts& counts) const
+{
+    std::vector<std::string> all = m_converter.notes();
+    for (const auto& more : { m_source->notes(), counts.notes() })
+        all.insert(all.end(), more.begin(), more.end());
+    return all;
 }
 
 Expected<Thumbnail> load_photo_thumbnail(const std::string& path)

@@ -60,14 +60,18 @@ private:
 /// A photo on disk, whole, read as PhotoReader does on the calling thread.
 class PhotoFile {
 public:
-    /// Opens any image that OpenImageIO reads and takes its first subimage. Errors start with "photo 'path': ":
+    /// Opens any image that OpenImageIO reads and takes its first picture; of the options `input` and `allow_partial`
+    /// count. Errors start with "photo 'path': ":
     /// missing, no image, nothing that can be a photo (see PhotoConverter).
-    static Expected<PhotoFile> open(const std::string& path);
+    static Expected<PhotoFile> open(const std::string& path, const Options& options = {});
 
     /// As stored, pixels of the data window; `orientation` (EXIF, 1 … 8) turns them upright.
     int width() const { return m_spec.width; }
     int height() const { return m_spec.height; }
     int orientation() const { return m_spec.get_int_attribute("Orientation", 1); }
+
+    /// What was assumed or changed, one sentence each; `counts`: of the reader that read all of it.
+    std::vector<std::string> notes(const PhotoCounts& counts) const;
 
     PhotoReader reader() { return PhotoReader(*m_source, 0, 0, m_spec, m_converter, 1); }
 

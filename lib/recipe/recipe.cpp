@@ -165,6 +165,8 @@ Expected<Recipe> recipe_from_json(const std::string& text, const std::string& pa
     }
     if (const Status format = check_format(object); !format)
         return Error{ where + ": " + format.error().message };
+    if (!is_job && recipe.action != Recipe::Action::apply && recipe.action != Recipe::Action::read)
+        return Error{ where + ": 'action': a recipe can apply or read" };
     if (!is_job && recipe.source.empty())
         return Error{ where + ": has no 'source'" };
     return recipe;

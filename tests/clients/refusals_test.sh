@@ -22,7 +22,7 @@ done
 
 check "a misspelt option is named" says "did you mean 'reference'?" iinfo "photo.jpg.srisp?refrence=reference.dng"
 check "an unknown model is named" says "did you mean 'pointwise'?" iinfo "$name&model=pointwse"
-check "a missing source is named" says "source 'missing.jpg' does not exist" iinfo "missing.jpg.srisp?reference=reference.dng"
+check "a missing source is named" says "photo 'missing.jpg': does not exist" iinfo "missing.jpg.srisp?reference=reference.dng"
 check "a missing reference is named" says "reference 'missing.dng'" iinfo "photo.jpg.srisp?reference=missing.dng"
 check "a JPEG is no reference" says "display-encoded" iinfo "photo.jpg.srisp?reference=photo.jpg"
 check "a truncated photo is an error" says "truncated.png" oiiotool "truncated.png.srisp?reference=reference.dng" -o t.exr

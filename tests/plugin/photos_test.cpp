@@ -282,10 +282,10 @@ TEST_CASE("what is wrong is said on opening")
     CHECK(has(refusal_of(photo + ".srisp?reference=" + folder.path("none.dng")), "none.dng"));
     CHECK(has(refusal_of(photo + ".srisp?reference=" + folder.path("none.dng") + "&lazy=1"), "none.dng"));
     CHECK(has(refusal_of(photo + ".srisp?reference=" + reference + "&model=pointwse"), "did you mean 'pointwise'?"));
-    CHECK(has(refusal_of(folder.path("none.jpg.srisp?reference=") + reference), "none.jpg' does not exist"));
+    CHECK(has(refusal_of(folder.path("none.jpg.srisp?reference=") + reference), "none.jpg': does not exist"));
     CHECK(has(refusal_of(folder.path(".srisp?reference=") + reference), "is a folder"));
     const std::string garbage = folder.file("garbage.png", "no image");
-    CHECK(has(refusal_of(garbage + ".srisp?reference=" + reference), "source '" + garbage + "'"));
+    CHECK(has(refusal_of(garbage + ".srisp?reference=" + reference), "photo '" + garbage + "'"));
     CHECK(has(refusal_of(photo + ".srisp.srisp?reference=" + reference), "a recipe cannot be made from a recipe"));
     CHECK(has(refusal_of(photo + ".srisp?params=" + folder.file("p.json", "{}")), "p.json"));
     OIIO::ImageSpec nowait;

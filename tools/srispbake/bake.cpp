@@ -164,6 +164,19 @@ void write_files(std::vector<Baked>& files)
             fail("output " + status.error().message);
 }
 
+/// Each with the name of the file that it is about.
+std::vector<std::string> notes_of(const BakeChoice& choice, const BakeOptions& options)
+{
+    std::vector<std::string> notes;
+    if (choice.photo)
+        for (const std::string& note : choice.photo->notes)
+            notes.push_back("photo '" + options.source + "': " + note);
+    if (choice.reference)
+        for (const std::string& note : choice.reference->notes)
+            notes.push_back("reference '" + options.reference + "': " + note);
+    return notes;
+}
+
 } // namespace
 
 BakeSummary bake(const BakeOptions& options)
@@ -175,7 +188,10 @@ BakeSummary bake(const BakeOptions& options)
         for (const OutputName& name : names)
             if (!name.cube)
                 refuse_bake_of_another(name.path, absolute_path(options.reference));
-    BakeSummary summary{ choice.photo ? choice.photo->name : "", choice.full ? choice.full->model->name() : "", {} };
+    BakeSummary summary{ choice.photo ? choice.photo->name : "",
+                         choice.full ? choice.full->model->name() : "",
+                         {},
+                         notes_of(choice, options) };
     std::vector<std::future<Baked>> bakes;
     for (const OutputName& name : names)
         bakes.push_back(std::async(std::launch::async, name.cube ? bake_cube : bake_clf, std::cref(name),

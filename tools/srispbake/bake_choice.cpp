@@ -30,7 +30,7 @@ void middle_of_share(int size, int index, int& from, int& to)
 
 PhotoSample empty_sample(const std::string& name, int width, int height)
 {
-    PhotoSample sample{ name, width, height, {}, {} };
+    PhotoSample sample{ name, width, height, {}, {}, {} };
     for (int row = 0; row < kTilesPerSide; ++row)
         for (int column = 0; column < kTilesPerSide; ++column) {
             Roi roi;
@@ -55,18 +55,22 @@ void add_rows(PhotoSample& sample, ImageView rows, int y0)
 
 } // namespace
 
-PhotoSample read_photo_sample(const std::string& path)
+PhotoSample read_photo_sample(const std::string& path, bool allow_partial)
 {
-    PhotoFile photo = require(PhotoFile::open(path));
+    Options options;
+    options.allow_partial = allow_partial;
+    PhotoFile photo = require(PhotoFile::open(path, options));
     PhotoSample sample = empty_sample(path, photo.width(), photo.height());
     ThumbnailBuilder builder(sample.width, sample.height);
-    require(photo.reader().read_all([&](ImageView rows, int y0) {
+    PhotoReader reader = photo.reader();
+    require(reader.read_all([&](ImageView rows, int y0) {
         check_interrupt();
         builder.add_rows(rows);
         add_rows(sample, rows, y0);
         return Status();
     }));
     sample.thumbnail = builder.finish(photo.orientation());
+    sample.notes = photo.notes(reader.counts());
     return sample;
 }
 
@@ -126,7 +130,7 @@ BakeChoice make_choice(const BakeOptions& options)
                                          : load_reference(options.reference);
     });
     if (!options.source.empty())
-        choice.photo = read_photo_sample(options.source);
+        choice.photo = read_photo_sample(options.source, options.allow_partial);
     choice.reference = require(reference.get());
     check_interrupt();
     if (!choice.reference)

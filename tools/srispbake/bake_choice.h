@@ -29,10 +29,11 @@ struct PhotoSample {
     int width = 0, height = 0;
     std::vector<Tile> tiles;
     Thumbnail thumbnail;
+    std::vector<std::string> notes; ///< what was assumed or changed
 };
 
 /// 4 × 4 parts of at most 96 × 96 pixels, evenly spread; the whole of small photos. Throws Failure.
-PhotoSample read_photo_sample(const std::string& path);
+PhotoSample read_photo_sample(const std::string& path, bool allow_partial = false);
 
 /// The same of a picture that is in memory, a thumbnail.
 PhotoSample sample_of_thumbnail(const Thumbnail& picture, const std::string& name);

@@ -24,6 +24,7 @@ void describe_options(CLI::App& app, BakeOptions& options)
     app.add_option("--lut-size", options.lut_size)->check(CLI::Range(kSmallestLut, kLargestLut));
     app.add_option("--fragment", options.fragment);
     app.add_option("--linear-srgb", options.linear_srgb);
+    app.add_flag("--allow-partial", options.allow_partial);
     app.add_flag("--cube", options.cube);
     app.add_flag("--watch", options.watch);
 }
@@ -69,6 +70,7 @@ and, apart, the difference to the full pipeline (model default).
 Options:
   --reference RAW     The RAW file to be matched
   --source PHOTO      The photo to choose for
+  --allow-partial     Take a PHOTO that breaks off as far as it goes
   --params JSON       Parameters as srisptool --srisp-params:model=pointwise
                       prints them, edited or not, instead of choosing
   --model NAME        Name or path of a pointwise model; pointwise

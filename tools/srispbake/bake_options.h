@@ -19,7 +19,7 @@ struct BakeOptions : CommonOptions {
     int lut_size = kDefaultLut;
     std::string fragment;    ///< a config to be extended
     std::string linear_srgb; ///< the name of that colour space in it; empty: found by itself
-    bool cube = false, watch = false;
+    bool cube = false, watch = false, allow_partial = false;
 };
 
 /// Makes the parser; it fills `options`.

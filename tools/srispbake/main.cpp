@@ -63,6 +63,9 @@ constexpr auto kLookEvery = std::chrono::milliseconds(250);
 void bake_once(const BakeOptions& options)
 {
     const BakeSummary summary = bake(options);
+    for (const std::string& note : summary.notes)
+        if (!options.quiet)
+            std::fprintf(stderr, "srispbake: note: %s\n", note.c_str());
     if (!options.quiet)
         std::fputs((options.json ? summary_json(summary) : summary_text(summary)).c_str(), stdout);
     std::fflush(stdout);

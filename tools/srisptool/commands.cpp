@@ -142,6 +142,8 @@ const std::vector<SrispCommand>& srisp_commands()
         { "srisp-help", nullptr, kNoDoor, Effect::helps, "", "", "Print this" },
         { "quiet", nullptr, kNoDoor, Effect::configures, "", "", "No notes and no progress; the same as -q" },
         { "no-progress", nullptr, kNoDoor, Effect::configures, "", "", "No progress on the terminal" },
+        { "allow-partial", nullptr, kNoDoor, Effect::configures, "", "",
+          "Take photos that break off as far as they go, with a note, instead of an error" },
     };
     return commands;
 }

@@ -98,9 +98,11 @@ TEST_CASE("jobs have actions, recipes have sources")
     const Recipe job = good(R"({"format": "srisp-recipe-1", "action": "save", "file": "p.json"})", true);
     CHECK(job.action == Recipe::Action::save);
     CHECK(job.file == "p.json");
-    CHECK(
-        has(refused(R"({"format": "srisp-recipe-1", "source": "p.jpg", "action": "print"})"), "unknown key 'action'"));
-    CHECK(has(refused(R"({"format": "srisp-recipe-1", "source": "p.jpg"})", true), "unknown key 'source'"));
+    CHECK(has(refused(R"({"format": "srisp-recipe-1", "source": "p.jpg", "action": "print"})"),
+              "'action': a recipe can apply or read"));
+    CHECK(good(R"({"format": "srisp-recipe-1", "source": "p.jpg", "action": "read"})").action == Recipe::Action::read);
+    CHECK(good(R"({"format": "srisp-recipe-1", "source": "p.#.jpg", "action": "read"})", true).source ==
+          "folder/p.#.jpg");
     CHECK(has(refused(R"({"format": "srisp-recipe-1", "action": "prnt"})", true), "did you mean 'print'?"));
 }
 
