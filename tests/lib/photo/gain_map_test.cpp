@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photo/gain_map.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <doctest/doctest.h>
 
