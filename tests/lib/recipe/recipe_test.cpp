@@ -102,7 +102,7 @@ TEST_CASE("jobs have actions, recipes have sources")
               "'action': a recipe can apply or read"));
     CHECK(good(R"({"format": "srisp-recipe-1", "source": "p.jpg", "action": "read"})").action == Recipe::Action::read);
     CHECK(good(R"({"format": "srisp-recipe-1", "source": "p.#.jpg", "action": "read"})", true).source ==
-          "folder/p.#.jpg");
+          "/shots/p.#.jpg");
     CHECK(has(refused(R"({"format": "srisp-recipe-1", "action": "prnt"})", true), "did you mean 'print'?"));
 }
 

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace srisp {
+
+/// What the first segment APPn of a JPEG that starts with `signature` holds after it. Segments up to the first scan are
+/// searched; whatever is damaged ends the search.
+std::optional<std::string_view> find_app_segment(std::string_view jpeg, int n, std::string_view signature);
+
+/// The packet of XMP that a JPEG holds; what overflows into extended XMP is not in it.
+std::optional<std::string_view> find_xmp_packet(std::string_view jpeg);
+
+/// The bytes from the start of a JPEG image through its end-of-image marker; none: it has no end.
+std::optional<std::size_t> jpeg_image_size(std::string_view jpeg);
+
+/// The images that a file holds beside its first one, by its multi-picture index (CIPA DC-007), at most 16. Entries
+/// that point outside the file, or to what does not start as a JPEG does, are left out.
+std::vector<std::string_view> find_further_images(std::string_view file);
+
+} // namespace srisp
