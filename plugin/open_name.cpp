@@ -78,6 +78,9 @@ Expected<OpenedName> open_stub(const QueryName& parts, const std::string& slot_i
         return job.error();
     if (const Status applied = apply_settings(*job, parts, config); !applied)
         return applied.error();
+    if (job->gain_map == GainMapUse::apply)
+        return Error{ job->name + ": gainmap=apply reads a gain map from the photo's file; no other command may stand "
+                                  "between the file's name and --srisp-unprocess" };
     return opened(ResultImage::open(*job, open_slot_source(slot_id, job->name), config, process_state().results));
 }
 

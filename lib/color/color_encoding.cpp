@@ -100,11 +100,6 @@ constexpr CicpTransfer kCicpTransfers[] = {
 };
 constexpr int kUnspecified = 2;
 
-double srgb_to_linear(double v)
-{
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-
 /// In units of the reference white of 203 cd/m² [ITU-R BT.2408].
 constexpr double kReferenceWhite = 203;
 
@@ -127,7 +122,7 @@ double to_linear(const ColorEncoding& encoding, double v)
 {
     switch (encoding.transfer) {
     case Transfer::srgb:
-        return srgb_to_linear(v);
+        return srgb_decoded(static_cast<float>(v));
     case Transfer::power:
         return std::pow(v, double(encoding.gamma));
     case Transfer::pq:

@@ -13,6 +13,11 @@ double srgb_curve(double v)
     return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
 }
 
+double srgb_curve_back(double v)
+{
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
 /// Encoded values of one pixel, from its linear light; returns how many were clipped.
 int encode(const Matrix3& matrix, const float linear[3], float* rgb)
 {
@@ -77,6 +82,12 @@ float srgb_encoded(float linear)
 {
     static const CurveTable table(srgb_curve);
     return table(std::min(std::max(linear, 0.0f), 1.0f));
+}
+
+float srgb_decoded(float encoded)
+{
+    static const CurveTable table(srgb_curve_back);
+    return table(encoded);
 }
 
 ColorTransformPtr curves_and_matrix(std::array<CurveTable, 3> to_linear, const Matrix3& to_linear_srgb)

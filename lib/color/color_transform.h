@@ -13,6 +13,8 @@ namespace srisp {
 
 /// Linear light in [0,1] → display-encoded sRGB (IEC 61966-2-1), by a table; within 5e-7. Values outside are clipped.
 float srgb_encoded(float linear);
+/// The way back; values in [0,1].
+float srgb_decoded(float encoded);
 
 /// Colours as an image stores them → display-encoded sRGB. Immutable.
 class ColorTransform {

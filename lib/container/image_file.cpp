@@ -11,6 +11,7 @@
 #include "container/jpeg_damage.h"
 #include "container/reader_name.h"
 #include "container/webp_input.h"
+#include "gain_map/find_gain_map.h"
 
 namespace srisp {
 
@@ -128,7 +129,8 @@ ImageFile::ImageFile(std::unique_ptr<OIIO::ImageInput> inner, const std::string&
                      const std::string& where)
     : m_inner(std::move(inner)), m_path(path), m_where(where),
       m_wants_straight(config.get_int_attribute("oiio:UnassociatedAlpha") != 0),
-      m_allows_partial(config.get_int_attribute("srisp:allow_partial") != 0)
+      m_allows_partial(config.get_int_attribute("srisp:allow_partial") != 0),
+      m_applies_gain_map(config.get_string_attribute("srisp:gainmap") == "apply")
 {
     // One thread: a reader that waits for pool threads may be given other work meanwhile, such as the host's next
     // request to this same reader.
@@ -156,6 +158,8 @@ bool ImageFile::seek_subimage(int subimage, int miplevel)
         m_inner->seek_subimage(0, 0);
         add_note(spec, "is an animation; its first frame was taken");
     }
+    if (std::strcmp(format_name(), "jpeg") == 0)
+        look_for_gain_map(spec);
     name_color_space(spec);
 
     const bool white_is_0 = is_min_is_white(spec);
@@ -173,6 +177,27 @@ bool ImageFile::seek_subimage(int subimage, int miplevel)
     m_subimage = subimage;
     m_miplevel = miplevel;
     return true;
+}
+
+/// Nothing about it is an error: the photo is there without it.
+void ImageFile::look_for_gain_map(OIIO::ImageSpec& spec)
+{
+    const auto found = find_gain_map_of_file(m_path);
+    if (found && !*found)
+        return;
+    const std::string taken = "; the SDR rendition was taken";
+    if (!found) {
+        add_note(spec, found.error().message + taken);
+    } else if (!m_applies_gain_map) {
+        add_note(spec, "holds a gain map (" + (*found)->name() + "), and so a picture of more range" + taken +
+                           " (gainmap=apply takes the other)");
+    } else {
+        auto map = GainMap::create(**found, spec.width, spec.height);
+        if (map)
+            m_gain_map = std::move(*map);
+        else
+            add_note(spec, map.error().message + taken);
+    }
 }
 
 /// What the reader made of some rows or a tile.

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <OpenImageIO/imageio.h>
 #include <srisp/expected.h>
+
+#include "gain_map/gain_map.h"
 
 namespace srisp {
 
@@ -28,6 +31,8 @@ public:
 
     /// What reading has shown so far, beside what the spec says (note_list).
     const std::vector<std::string>& reading_notes() const { return m_notes; }
+    /// Of a JPEG photo, where `srisp:gainmap` in `config` is "apply"; null: it has none, or none is wanted.
+    const GainMap* gain_map() const { return m_gain_map ? &*m_gain_map : nullptr; }
     /// What the file is called in messages.
     const std::string& where() const { return m_where; }
 
@@ -50,14 +55,16 @@ private:
     ImageFile(std::unique_ptr<OIIO::ImageInput> inner, const std::string& path, const OIIO::ImageSpec& config,
               const std::string& where);
     bool accept(bool read, int y, void* data, std::size_t bytes);
+    void look_for_gain_map(OIIO::ImageSpec& spec);
     void put_right(void* data, int width, int height) const;
 
     std::unique_ptr<OIIO::ImageInput> m_inner;
     std::string m_path, m_where;
-    bool m_wants_straight, m_allows_partial;
+    bool m_wants_straight, m_allows_partial, m_applies_gain_map;
     int m_subimage = -1, m_miplevel = -1;
     bool m_associates = false; ///< colour is stored straight and wanted associated
     bool m_inverts = false;    ///< white is stored as 0
+    std::optional<GainMap> m_gain_map;
     std::vector<std::string> m_notes;
 };
 

@@ -148,21 +148,30 @@ Found find_gain_map(std::string_view file)
     return std::optional<GainMapInfo>();
 }
 
+std::string GainMapInfo::name() const
+{
+    switch (kind) {
+    case Kind::ultra_hdr:
+        return "Ultra HDR";
+    case Kind::iso:
+        return "ISO 21496-1";
+    case Kind::apple:
+        break;
+    }
+    return "Apple HDR";
+}
+
 Found find_gain_map_of_file(const std::string& path)
 {
-    const auto failed = [&](const Error& error) { return Error{ "photo '" + path + "': " + error.message }; };
     const auto start = read_head(path, kJpegStart.size());
     if (!start)
-        return failed(start.error());
+        return start.error();
     if (*start != kJpegStart)
         return std::optional<GainMapInfo>();
     const auto file = read_head(path, kLargestFile);
     if (!file)
-        return failed(file.error());
-    Found found = find_gain_map(*file);
-    if (!found)
-        return failed(found.error());
-    return found;
+        return file.error();
+    return find_gain_map(*file);
 }
 
 } // namespace srisp

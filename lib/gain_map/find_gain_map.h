@@ -21,6 +21,8 @@ struct GainMapInfo {
     Kind kind;
     GainMapMetadata metadata;
     std::string jpeg; ///< the file that the map's image is
+
+    std::string name() const; ///< of the kind
 };
 
 /// The gain map of a JPEG file in memory; none: it holds none, or is no JPEG. Errors start with "its gain map": the
@@ -28,8 +30,8 @@ struct GainMapInfo {
 /// map's image is not decoded yet.
 Expected<std::optional<GainMapInfo>> find_gain_map(std::string_view file);
 
-/// That of a file on disk. Errors start with "photo 'path'", also where it cannot be read; of others than JPEG the
-/// first bytes are read only.
+/// That of a file on disk. Errors: the same, without its name, and why it cannot be read; of others than JPEG the first
+/// bytes are read only.
 Expected<std::optional<GainMapInfo>> find_gain_map_of_file(const std::string& path);
 
 } // namespace srisp

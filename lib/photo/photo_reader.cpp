@@ -7,6 +7,7 @@
 #include <srisp/thumbnail.h>
 
 #include "base/parallel.h"
+#include "photo/headroom.h"
 
 namespace srisp {
 
@@ -63,10 +64,17 @@ Expected<PhotoRows> PhotoReader::rows(int y0, int y1)
     if (!stored)
         return stored.error();
     const std::size_t count = std::size_t(y1 - y0), row = std::size_t(m_width);
-    PhotoRows rows{ m_width, y0, y1, *stored, std::vector<float>(count * row * 3), std::vector<PhotoCounts>(count) };
+    const GainMap* const gain_map = m_subimage == 0 && m_miplevel == 0 ? m_source.gain_map() : nullptr;
+    PhotoRows rows{
+        m_width, y0, y1, *stored, std::vector<float>(count * row * 3), {}, std::vector<PhotoCounts>(count)
+    };
+    if (gain_map)
+        rows.headroom.resize(count * row);
     const auto convert = [&](std::int64_t y) {
-        m_converter.to_rgb(rows.stored->data() + y * row * m_channels, m_width, rows.rgb.data() + y * row * 3,
-                           rows.row_counts[y]);
+        float* const rgb = rows.rgb.data() + y * row * 3;
+        m_converter.to_rgb(rows.stored->data() + y * row * m_channels, m_width, rgb, rows.row_counts[y]);
+        if (gain_map)
+            apply_gain_map(*gain_map, y0 + static_cast<int>(y), m_width, rgb, rows.headroom.data() + y * row);
     };
     parallel_tasks(y1 - y0, m_threads, convert);
     return rows;

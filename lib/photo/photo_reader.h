@@ -17,6 +17,7 @@ struct PhotoRows {
     int width, y0, y1;
     std::shared_ptr<const std::vector<float>> stored; ///< of these rows and no others
     std::vector<float> rgb;
+    std::vector<float> headroom; ///< of each pixel: how much brighter its light is than `rgb` says; empty: nowhere
     std::vector<PhotoCounts> row_counts; ///< what conversion changed in each row
 
     ImageView view() const { return { rgb.data(), width, y1 - y0, 3, std::ptrdiff_t(3) * width }; }

@@ -79,6 +79,7 @@ public:
 
     const std::string& name() const override { return m_name; }
     const std::string& key() const override { return m_key; }
+    const GainMap* gain_map() const override { return m_file->gain_map(); }
     const std::vector<std::string>& notes() const override { return m_file->reading_notes(); }
 
 private:
@@ -93,6 +94,8 @@ OIIO::ImageSpec reading_hints(const Options& options, const OIIO::ImageSpec& con
     OIIO::ImageSpec hints = config;
     if (options.allow_partial)
         hints.attribute("srisp:allow_partial", 1);
+    if (options.gain_map == GainMapUse::apply)
+        hints.attribute("srisp:gainmap", "apply");
     return hints;
 }
 

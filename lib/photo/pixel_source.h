@@ -10,6 +10,8 @@
 #include <srisp/expected.h>
 #include <srisp/options.h>
 
+#include "gain_map/gain_map.h"
+
 namespace srisp {
 
 /// Where the pixels of a photo come from: a file, or memory (hand-over). Not for use by several threads at a time.
@@ -26,6 +28,8 @@ public:
     virtual const std::string& name() const = 0;
     /// Says which pixels these are, for caches: differs when the file changes.
     virtual const std::string& key() const = 0;
+    /// The gain map that is to be applied, for the first picture; null: none is.
+    virtual const GainMap* gain_map() const { return nullptr; }
     /// What reading has shown so far, beside what the spec says.
     virtual const std::vector<std::string>& notes() const
     {

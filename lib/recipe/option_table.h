@@ -38,7 +38,7 @@ enum class OptionType {
 using OptionTarget =
     std::variant<std::string Recipe::*, std::vector<std::string> Recipe::*, std::optional<Parameters> Recipe::*,
                  bool Recipe::*, std::uint64_t Recipe::*, Direction Recipe::*, InputEncoding Recipe::*,
-                 Precision Recipe::*, Recipe::Action Recipe::*>;
+                 GainMapUse Recipe::*, Precision Recipe::*, Recipe::Action Recipe::*>;
 
 /// One option: all that recipes, queries, hints, srisptool and its help know of it.
 struct Option {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "photo/headroom.h"
+
 namespace srisp {
 
 namespace {
@@ -88,6 +90,10 @@ Expected<std::shared_ptr<const BandReader::Band>> BandReader::compute(int index)
                                                    { result.data(), m_width, y1 - y0, 3, stride }, options);
     if (!applied)
         return Error{ m_source.name() + ": " + applied.error().message };
+
+    if (!rows->headroom.empty())
+        add_headroom(rows->headroom.data() + std::size_t(m_width) * (y0 - first), std::int64_t(m_width) * (y1 - y0),
+                     result.data());
 
     auto computed = std::make_shared<Band>(Band{ index, {} });
     computed->values.resize(std::size_t(m_width) * (y1 - y0) * m_channels);

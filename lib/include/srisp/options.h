@@ -31,19 +31,26 @@ enum class InputEncoding {
     camera     ///< a RAW-like image, to be processed forward: values are taken as they are
 };
 
+/// What to do with the gain map that phones keep in a JPEG photo (Ultra HDR, ISO 21496-1).
+enum class GainMapUse {
+    ignore, ///< the photo is its SDR rendition
+    apply   ///< the photo is its HDR picture; what is brighter than SDR white goes above 1 in the result
+};
+
 /// What may be asked for beside a photo and a reference.
 struct Options {
     std::string model; ///< name, or path of a .safetensors file; empty: what `parameters` name, else "default"
     std::optional<Parameters> parameters; ///< in place of selected ones (reverse) or recorded ones (forward)
     InputEncoding input = InputEncoding::automatic;
     Precision precision = Precision::float32;
+    GainMapUse gain_map = GainMapUse::ignore;
     bool allow_partial = false; ///< a photo that breaks off is taken as far as it goes, with a note
     std::uint64_t seed = 0;     ///< with the photo's name it says which of several references is taken
 };
 
 /// Sets one option by its name, as a query, a recipe and srisptool do: model, params (the path of a JSON file), input
-/// (auto, srgb, linear), precision (float32, fast), seed, allow_partial (0, 1).
-/// Errors: unknown keys and values (the near ones listed), a file that cannot be read.
+/// (auto, srgb, linear), precision (float32, fast), seed, gainmap (ignore, apply),
+/// allow_partial (0, 1). /// Errors: unknown keys and values (the near ones listed), a file that cannot be read.
 SRISP_API Status set_option(Options& options, const std::string& key, const std::string& value);
 
 } // namespace srisp
