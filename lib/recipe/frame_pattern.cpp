@@ -6,31 +6,44 @@
 
 namespace srisp {
 
-/// `wildcards`: the characters that stand for digits; `range`: those that may stand before them.
-static std::string frame_pattern(const std::string& path, const char* wildcards, const char* range)
+static std::string printf_pattern(const std::string& wildcard)
 {
-    const std::size_t folder = path.rfind('/') + 1; // 0 if there is none
-    const std::size_t begin = path.find_first_of(wildcards, folder);
-    if (begin == std::string::npos)
-        return path;
-    const std::size_t end = std::min(path.find_first_not_of(wildcards, begin), path.size());
     int digits = 0;
-    for (std::size_t i = begin; i < end; ++i)
-        digits += path[i] == '#' ? 4 : 1;
-    const std::size_t last_kept = path.find_last_not_of(range, begin - 1);
-    const std::size_t kept =
-        begin == folder || last_kept == std::string::npos ? folder : std::max(last_kept + 1, folder);
-    return path.substr(0, kept) + "%0" + std::to_string(digits) + "d" + path.substr(end);
+    for (const char c : wildcard)
+        digits += c == '#' ? 4 : 1;
+    return "%0" + std::to_string(digits) + "d";
 }
 
 std::string frame_pattern_of_file(const std::string& path)
 {
-    return frame_pattern(path, "#", "");
+    const std::size_t folder = path.rfind('/') + 1; // 0 if there is none
+    const std::size_t begin = path.find('#', folder);
+    if (begin == std::string::npos)
+        return path;
+    const std::size_t end = std::min(path.find_first_not_of('#', begin), path.size());
+    return path.substr(0, begin) + printf_pattern(path.substr(begin, end - begin)) + path.substr(end);
+}
+
+FrameWildcard find_frame_wildcard(const std::string& path)
+{
+    static const std::string one_range = "-?[0-9]+(?:--?[0-9]+(?:[xy]-?[0-9]+)?)?";
+    static const std::regex wildcard("(" + one_range + "(?:," + one_range + ")*)?(?:[#@]+|%[0-9]*d)");
+    const auto folder = path.begin() + static_cast<std::ptrdiff_t>(path.rfind('/') + 1);
+    std::smatch match;
+    if (!std::regex_search(folder, path.end(), match, wildcard))
+        return {};
+    return { std::size_t(match[0].first - path.begin()), std::size_t(match.length()), match[1].matched };
 }
 
 std::string frame_pattern_of_image(const std::string& path)
 {
-    return frame_pattern(path, "#@", "0123456789-,xy");
+    const auto [begin, length, has_range] = find_frame_wildcard(path);
+    if (length == 0)
+        return path;
+    const std::string wildcard = path.substr(begin, length);
+    const std::size_t kept = wildcard.find_first_of("#@%");
+    const std::string pattern = wildcard[kept] == '%' ? wildcard.substr(kept) : printf_pattern(wildcard.substr(kept));
+    return path.substr(0, begin) + pattern + path.substr(begin + length);
 }
 
 std::string with_frame(const std::string& pattern, const std::string& frame)

@@ -37,6 +37,14 @@ check "there and back, frame 2" same back.0002.tif back.tif
 $tool --frames 1-2 "s.#.tif" --srisp-unprocess "$reference" "s.#.tif" --flip --srisp-unprocess "$reference" --absdiff -o "two.#.exr"
 $tool s.0002.tif --srisp-unprocess "$reference" s.0002.tif --flip --srisp-unprocess "$reference" --absdiff -o two.exr
 check "two commands in a sequence, frame 2" same two.0002.exr two.exr
+for frame in 1 2 3; do cp "s.000$frame.tif" "t.001$frame.tif"; done
+$tool "s.#.tif" --flip --flip "t.#.tif" --srisp-unprocess "$reference" -o "u.#.exr"
+for frame in 1 2 3; do
+    check "a second sequence with numbers of its own, frame $frame" same "u.000$frame.exr" "single.000$frame.exr"
+done
+$tool --info "s.1-2#.tif" --flip --srisp-params "$reference" 2>&1 | grep -v '^{' >info.txt
+oiiotool --info "s.1-2#.tif" >info_expected.txt
+check "information bears the user's names" cmp info.txt info_expected.txt
 $tool --frames 1000001-1000002 "$photo" --srisp-unprocess "$reference" -o "big.#.exr"
 check "frame numbers beyond a million" same big.1000002.exr c.0001.exr
 $tool --frames -2--1 "$photo" --dup --srisp-unprocess "$reference" --srisp-save-params "n.#.json" -o "n.#.exr"

@@ -2,12 +2,13 @@
 #include "rewriter.h"
 
 #include <algorithm>
-#include <filesystem>
+#include <optional>
 
 #include "recipe/frame_pattern.h"
 
 #include "../common/failure.h"
 #include "output_depth.h"
+#include "source_file.h"
 
 namespace srisp::tool {
 
@@ -21,20 +22,57 @@ const char kTakeBack[] = "-i:now=1:autocc=0:info=0";
 // others wait for it by spinning: that takes the cores away that apply needs.
 const char kReadNow[] = "-i:now=1";
 
+// Takes the place of the user's name where that was printed, and is not printed again.
+const char kReadQuietly[] = ":now=1:autocc=0:info=0";
+
+bool is_for_images(const Step& step)
+{
+    return step.srisp && (step.srisp->effect == Effect::replaces || step.srisp->effect == Effect::reports);
+}
+
+/// Behind the last step before which it matters how images are read; a loop comes back to all that it holds.
+std::size_t end_of_reading(const std::vector<Step>& steps)
+{
+    std::size_t end = 0;
+    for (std::size_t i = 0; i < steps.size(); ++i)
+        if (is_for_images(steps[i]) || (end > 0 && (steps[i].is_named("endfor") || steps[i].is_named("endwhile"))))
+            end = i + 1;
+    return end;
+}
+
+/// Whether a step prints names of images on the stack, or may: there the user's own have to be.
+bool prints_names(const Step& step)
+{
+    for (const char* name : { "printinfo", "printstats", "diff", "pdiff" })
+        if (step.is_named(name))
+            return true;
+    return std::any_of(step.words.begin(), step.words.end(), [](const std::string& word) {
+        return word.find('{') != std::string::npos && word.find(".file") != std::string::npos;
+    });
+}
+
 class Rewriter {
 public:
-    explicit Rewriter(const RewriteOptions& options) : m_options(options) {}
+    Rewriter(const std::vector<Step>& steps, const RewriteOptions& options)
+        : m_steps(steps), m_options(options), m_end_of_reading(end_of_reading(steps)),
+          m_own_names(std::any_of(steps.begin(), steps.end(), prints_names))
+    {
+        m_rules.frames = contains(steps, "frames");
+        m_theirs_only = contains(steps, "framepadding");
+    }
 
-    Rewritten run(const std::vector<Step>& steps)
+    Rewritten run()
     {
         // oiiotool would record the words that it is given, which hold names of temporary files.
         m_result.words.push_back("--nosoftwareattrib");
-        for (const Step& step : steps) {
+        for (std::size_t i = 0; i < m_steps.size(); ++i) {
+            const Step& step = m_steps[i];
             if (step.srisp)
                 add_ours(step);
+            else if (!name_read_by(step).empty())
+                add_image(step, i);
             else
                 add_theirs(step);
-            m_previous = &step;
         }
         return m_result;
     }
@@ -45,33 +83,39 @@ private:
         m_result.words.insert(m_result.words.end(), words.begin(), words.end());
     }
 
-    void add_theirs(const Step& step)
+    /// What an operand or `-i` names; empty for other steps.
+    static std::string name_read_by(const Step& step)
     {
-        std::vector<std::string> words = step.words;
-        if (step.is_operand())
-            note_image(words[0]);
-        else
-            note_command(step, words);
-        emit(words);
+        const bool reads = step.oiiotool && step.oiiotool->role == Role::reads && step.words.size() == 2;
+        return step.is_operand() || reads ? step.words.back() : "";
     }
 
     void note_image(const std::string& name)
     {
         m_any_image = true;
-        m_image_name = m_wildcards ? frame_pattern_of_image(name) : name;
+        m_image_name = m_rules.wildcards ? frame_pattern_of_image(name) : name;
     }
 
-    void note_command(const Step& step, std::vector<std::string>& words)
+    void add_theirs(const Step& step)
     {
+        std::vector<std::string> words = step.words;
         const Role role = step.oiiotool ? step.oiiotool->role : Role::acts;
-        m_sticky |= role == Role::sticky;
+        m_changes_reading |= role == Role::sticky;
         m_acted |= role == Role::acts;
         if (role == Role::reads || role == Role::creates)
-            note_image(role == Role::reads && words.size() > 1 ? words[1] : "");
+            note_image("");
+        for (const char* name : { "info", "stats", "dumpdata", "hash" })
+            m_prints |= step.is_named(name);
         if (step.is_named("evaloff") || step.is_named("evalon"))
-            m_evaluates = step.is_named("evalon");
+            m_rules.expressions = step.is_named("evalon");
         else if (step.is_named("wildcardoff") || step.is_named("wildcardon"))
-            m_wildcards = step.is_named("wildcardon");
+            m_rules.wildcards = step.is_named("wildcardon");
+        else if (step.is_named("autocc") || step.is_named("noautocc"))
+            m_converts = step.is_named("autocc");
+        else if (step.is_named("native") || step.is_named("missingfile"))
+            m_theirs_only = true;
+        else if (step.is_named("iconfig"))
+            m_hints = true;
         else if (step.is_named("n"))
             m_dry_run = true;
         else if (step.is_named("d"))
@@ -81,6 +125,63 @@ private:
         else if (step.is_named("o") && words.size() > 1 && m_raw && !m_depth_given)
             if (const std::string warning = choose_depth(words); !warning.empty())
                 m_result.warnings.push_back(warning);
+        emit(words);
+    }
+
+    void add_image(const Step& step, std::size_t i)
+    {
+        const std::string name = name_read_by(step);
+        note_image(name);
+        const bool is_label = std::find(m_labels.begin(), m_labels.end(), name) != m_labels.end();
+        const auto source = is_label || m_theirs_only ? std::nullopt : find_source_file(name, m_rules);
+        const bool before_ours =
+            i + 1 < m_steps.size() && m_steps[i + 1].srisp && m_steps[i + 1].srisp->effect == Effect::replaces;
+        const bool plain = step.is_operand() || step.words[0].find(':') == std::string::npos;
+        if (source && before_ours && plain && !m_changes_reading && !m_acted)
+            m_direct = source; // our command reads it
+        else if (source && i < m_end_of_reading && !m_own_names && !m_converts &&
+                 !has_modifier(step.words[0], "autocc"))
+            read_as_stored(step, *source);
+        else
+            emit(step.words);
+        m_hints = false;
+    }
+
+    void read_as_stored(const Step& step, const SourceFile& source)
+    {
+        const bool prints = m_prints || has_modifier(step.words[0], "info");
+        // The user's name on the stack for a moment could set off a command that waits for an image.
+        if (prints && (m_acted || m_hints)) {
+            emit(step.words);
+            return;
+        }
+        nlohmann::json recipe = { { "format", "srisp-recipe-1" }, { "action", "read" }, { "notes", m_options.notes } };
+        const std::string word = add_recipe(source, std::move(recipe), "");
+        if (prints) {
+            emit(step.words);
+            emit({ (step.is_operand() ? "-i" : step.words[0]) + kReadQuietly, word, "--swap", "--pop" });
+        } else {
+            emit(step.words);
+            m_result.words.back() = word;
+        }
+    }
+
+    /// Adds the files for the reading of a source; returns the name that stands for it.
+    std::string add_recipe(const SourceFile& source, nlohmann::json recipe, const std::string& command)
+    {
+        const std::string number = std::to_string(++m_jobs);
+        m_result.subjects[number] = { m_image_name, source.path, command };
+        recipe["source"] = source.path;
+        const std::string name = m_options.folder + "/" + number;
+        if (source.wildcard.empty()) {
+            m_result.files.push_back({ number + ".srisp", std::move(recipe) });
+            return name + ".srisp";
+        }
+        m_result.files.push_back({ number + ".json", std::move(recipe) });
+        // For oiiotool to find, as it would have found the user's files.
+        for (const std::string& frame : source.frames)
+            m_result.files.push_back({ number + "." + frame + ".srisp", { { "format", "srisp-slot-1" } } });
+        return name + "." + source.wildcard + ".srisp";
     }
 
     void add_ours(const Step& step)
@@ -98,76 +199,62 @@ private:
             job["command"] = m_options.typed_command;
         job["progress"] = m_options.progress;
         job["notes"] = m_options.notes;
-        const std::string name = std::to_string(++m_jobs);
-        if (step.srisp->effect == Effect::replaces && may_read_directly())
-            read_directly(name, std::move(job));
+        if (m_direct)
+            read_directly(std::move(job), command);
         else if (m_dry_run)
             m_result.warnings.push_back("-n writes nothing, so " + command + " was checked but not run");
         else
-            hand_over(name, std::move(job), *step.srisp);
+            hand_over(std::move(job), *step.srisp);
         if (step.srisp->effect == Effect::replaces)
             m_raw = step.srisp->direction == std::string("reverse");
     }
 
-    /// Whether the step before is a file's name and nothing else, which oiiotool would read as the plugin reads it.
-    bool may_read_directly() const
+    void read_directly(nlohmann::json recipe, const std::string& command)
     {
-        if (!m_previous || m_sticky || m_acted)
-            return false;
-        const bool named = m_previous->oiiotool && m_previous->oiiotool->role == Role::reads &&
-                           m_previous->words.size() == 2 && m_previous->words[0].find(':') == std::string::npos;
-        if (!m_previous->is_operand() && !named)
-            return false;
-        const std::string& name = m_previous->words.back();
-        const bool is_label = std::find(m_labels.begin(), m_labels.end(), name) != m_labels.end();
-        std::error_code error;
-        return !is_label && name.find_first_of("#@%{}?") == std::string::npos &&
-               std::filesystem::path(name).extension() != ".srisp" && std::filesystem::is_regular_file(name, error);
+        const std::string word = add_recipe(*m_direct, std::move(recipe), command);
+        m_direct.reset();
+        if (!m_dry_run)
+            emit({ kReadNow });
+        emit({ word });
     }
 
-    void read_directly(const std::string& name, nlohmann::json recipe)
+    void hand_over(nlohmann::json job, const SrispCommand& command)
     {
-        recipe["source"] = std::filesystem::absolute(m_previous->words.back()).string();
-        m_result.words.back() = m_options.folder + "/" + name + ".srisp";
-        if (!m_dry_run) {
-            const auto read = m_result.words.end() - 1;
-            if (m_previous->is_operand())
-                m_result.words.insert(read, kReadNow);
-            else
-                *(read - 1) = kReadNow;
-        }
-        m_result.files.push_back({ name + ".srisp", std::move(recipe) });
-    }
-
-    void hand_over(const std::string& name, nlohmann::json job, const SrispCommand& command)
-    {
+        const std::string number = std::to_string(++m_jobs);
+        m_result.subjects[number] = { m_image_name, "", std::string("--") + command.name };
         job["action"] = command.action;
         if (!m_image_name.empty())
             job["name"] = m_image_name;
-        m_result.files.push_back({ name + ".json", std::move(job) });
+        m_result.files.push_back({ number + ".json", std::move(job) });
         // One name per frame: OpenImageIO caches by name.
-        const std::string slot = m_options.folder + "/" + name + ".{FRAME_NUMBER}.srisp";
-        if (!m_evaluates)
+        const std::string slot = m_options.folder + "/" + number + ".{FRAME_NUMBER}.srisp";
+        if (!m_rules.expressions)
             emit({ "--evalon" });
         emit({ kHandOver, slot });
         if (command.effect == Effect::replaces)
             emit({ "--pop", kTakeBack, slot });
-        if (!m_evaluates)
+        if (!m_rules.expressions)
             emit({ "--evaloff" });
     }
 
+    const std::vector<Step>& m_steps;
     const RewriteOptions& m_options;
+    const std::size_t m_end_of_reading;
+    const bool m_own_names;
     Rewritten m_result;
-    const Step* m_previous = nullptr;
     int m_jobs = 0;
     std::vector<std::string> m_labels;
-    bool m_evaluates = true;
-    bool m_wildcards = true;
-    bool m_sticky = false; ///< something changes how images are read
-    bool m_acted = false;  ///< a command may be waiting for the next image, or run conditionally
+    NameRules m_rules;
+    bool m_changes_reading = false; ///< something changes how images are read
+    bool m_converts = false;        ///< it is --autocc
+    bool m_prints = false;          ///< something is printed of each image that is read
+    bool m_theirs_only = false;     ///< what is in force only oiiotool's reading knows
+    bool m_hints = false;           ///< for the next image's reader
+    bool m_acted = false;           ///< a command may be waiting for the next image, or run conditionally
     bool m_any_image = false;
-    std::string m_image_name; ///< of the last image that was read
-    bool m_raw = false;       ///< the last of our commands made a RAW-like image
+    std::string m_image_name;           ///< of the last image that was read
+    std::optional<SourceFile> m_direct; ///< is to be read by our command, which is next
+    bool m_raw = false;                 ///< the last of our commands made a RAW-like image
     bool m_depth_given = false;
     bool m_dry_run = false;
 };
@@ -176,7 +263,7 @@ private:
 
 Rewritten rewrite(const std::vector<Step>& steps, const RewriteOptions& options)
 {
-    return Rewriter(options).run(steps);
+    return Rewriter(steps, options).run();
 }
 
 } // namespace srisp::tool

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -9,11 +10,19 @@
 
 namespace srisp::tool {
 
+/// What a name in the temporary folder stands for, in messages.
+struct Subject {
+    std::string image;   ///< as typed, a frame pattern as printf has it; "": it has no name
+    std::string path;    ///< the same, absolute; "": pixels come by hand-over
+    std::string command; ///< the user's; "": the image is only read
+};
+
 /// A command line for the stock oiiotool, and the files that it needs.
 struct Rewritten {
-    std::vector<std::string> words;    ///< without the program's name
-    std::vector<JobFile> files;        ///< to be written into the temporary folder
-    std::vector<std::string> warnings; ///< for stderr
+    std::vector<std::string> words;          ///< without the program's name
+    std::vector<JobFile> files;              ///< to be written into the temporary folder
+    std::map<std::string, Subject> subjects; ///< by the number that the names of the files begin with
+    std::vector<std::string> warnings;       ///< for stderr
 };
 
 struct RewriteOptions {
@@ -26,8 +35,11 @@ struct RewriteOptions {
 /// Turns each of our commands into commands that oiiotool knows. An image that is on the stack is handed over through
 /// our writer and read back through our reader:
 ///     -o T/1.{FRAME_NUMBER}.srisp --pop -i T/1.{FRAME_NUMBER}.srisp
-/// Where an image's plain file name stands immediately before and nothing changes how it is read, a recipe takes the
-/// name's place instead, and pixels are read only when needed. Names of the user never stand in words that are added.
+/// Where an image's file name stands immediately before and nothing changes how it is read, a recipe takes the name's
+/// place instead, and pixels are read only when needed. The names of all other files that are read before the last of
+/// our commands are replaced by recipes, too, which read them as they are: our reader knows more of what they hold than
+/// oiiotool's. A frame wildcard stays in the name that takes the place, so that oiiotool finds the same frames.
+/// Names of the user never stand in words that are added.
 Rewritten rewrite(const std::vector<Step>& steps, const RewriteOptions& options);
 
 } // namespace srisp::tool

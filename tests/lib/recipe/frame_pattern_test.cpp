@@ -25,6 +25,22 @@ TEST_CASE("the wildcard of an image may be @ and begin with a range")
     CHECK(frame_pattern_of_image("1-3#.tif") == "%04d.tif");
     CHECK(frame_pattern_of_image("/a1/1-3,7#.tif") == "/a1/%04d.tif");
     CHECK(frame_pattern_of_image("/a@b/s.tif") == "/a@b/s.tif");
+    CHECK(frame_pattern_of_image("box-x2,1-3#@.tif") == "box-x%05d.tif");
+    CHECK(frame_pattern_of_image("s.1-3%03d.tif") == "s.%03d.tif");
+}
+
+TEST_CASE("the wildcard of an image is found with its range")
+{
+    const auto found = [](const std::string& path) {
+        const FrameWildcard wildcard = find_frame_wildcard(path);
+        return path.substr(wildcard.begin, wildcard.length) + (wildcard.has_range ? " with range" : "");
+    };
+    CHECK(found("s.#.tif") == "#");
+    CHECK(found("/a.1-2#/s2.-3--1x2,7#@.tif") == "-3--1x2,7#@ with range");
+    CHECK(found("s.1-2,3x1@.tif") == "1@ with range");
+    CHECK(found("s%d.tif") == "%d");
+    CHECK(found("100%.tif") == "");
+    CHECK(found("/a#/s.tif") == "");
 }
 
 TEST_CASE("frame numbers replace # and %d in file names")
