@@ -84,8 +84,8 @@ Expected<OpenedName> open_stub(const QueryName& parts, const std::string& slot_i
     return opened(ResultImage::open(*job, open_slot_source(slot_id, job->name), config, process_state().results));
 }
 
-/// What srisptool lets oiiotool read in place of a photo's frames: `T/1.0007.srisp`, of which only the job `T/1.json`
-/// is on disk. None: the name is another.
+/// What srisptool lets oiiotool read in place of a photo's frames: `T/1.0007.srisp`, which is not on disk or an empty
+/// stub; the job `T/1.json` says what is meant. None: the name is another.
 std::optional<Recipe> recipe_of_frame(const QueryName& parts)
 {
     const StubName name = parse_stub_name(parts.file);
@@ -200,19 +200,27 @@ Expected<OpenedName> open_name(const std::string& name, const OIIO::ImageSpec& c
     Recipe recipe;
     recipe.source = parts->source;
     recipe.path = parts->file;
-    if (exists(parts->file)) {
+    std::optional<Recipe> of_frame;
+    if (!exists(parts->file)) {
+        of_frame = recipe_of_frame(*parts);
+    } else {
         const auto text = read_text_file(parts->file, kMostRecipe);
         if (!text)
             return Error{ "recipe " + text.error().message };
-        if (const auto slot_id = parse_stub(*text))
+        const auto slot_id = parse_stub(*text);
+        if (slot_id && slot_id->empty())
+            of_frame = recipe_of_frame(*parts);
+        if (slot_id && !of_frame)
             return open_stub(*parts, *slot_id, config);
-        auto read = recipe_from_json(*text, parts->file, false);
-        if (!read)
-            return read.error();
-        recipe = *read;
-    } else if (const auto job = recipe_of_frame(*parts)) {
-        recipe = *job;
+        if (!slot_id) {
+            auto read = recipe_from_json(*text, parts->file, false);
+            if (!read)
+                return read.error();
+            recipe = *read;
+        }
     }
+    if (of_frame)
+        recipe = *of_frame;
     if (const Status applied = apply_settings(recipe, *parts, config); !applied)
         return applied.error();
     return open_recipe(recipe, config);

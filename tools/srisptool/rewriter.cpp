@@ -172,6 +172,8 @@ private:
         const std::string number = std::to_string(++m_jobs);
         m_result.subjects[number] = { m_image_name, source.path, command };
         recipe["source"] = source.path;
+        if (m_options.allow_partial)
+            recipe["allow_partial"] = true;
         const std::string name = m_options.folder + "/" + number;
         if (source.wildcard.empty()) {
             m_result.files.push_back({ number + ".srisp", std::move(recipe) });

@@ -156,6 +156,7 @@ int run_rewritten(const std::string& program, const std::vector<Step>& steps)
     RewriteOptions options;
     options.folder = folder.path().string();
     options.typed_command = recorded_command(program, steps);
+    options.allow_partial = contains(steps, "allow-partial");
     options.notes = !contains(steps, "quiet") && !contains(steps, "q");
     options.progress = options.notes && isatty(STDERR_FILENO) && !contains(steps, "no-progress");
     Rewritten rewritten = rewrite(steps, options);

@@ -135,9 +135,9 @@ TEST_CASE("photos without a map have none, and one that was cut off is missed")
     const std::string path = folder.file("cut.jpg", whole.substr(0, *photo));
     const auto found = find_gain_map_of_file(path);
     REQUIRE(!found);
-    CHECK(found.error().message == "photo '" + path + "': " + kMissing);
+    CHECK(found.error().message == kMissing);
     CHECK(find_gain_map_of_file(folder.path("missing.jpg")).error().message ==
-          "photo '" + folder.path("missing.jpg") + "': No such file or directory");
+          "No such file or directory");
     CHECK(!*find_gain_map_of_file(folder.file("other.tif", "II*")));
     const auto map = find_gain_map_of_file(folder.file("whole.jpg", whole));
     REQUIRE(map);
