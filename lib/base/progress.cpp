@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
 namespace srisp {
 
@@ -18,17 +19,25 @@ std::string duration_text(double seconds)
     return (minutes < 60 ? "" : std::to_string(minutes / 60) + " h ") + std::to_string(minutes % 60) + " min";
 }
 
+static int file_for_progress()
+{
+    const char* const variable = std::getenv(kTerminalVariable);
+    const int file = variable ? std::atoi(variable) : 0;
+    return file > STDERR_FILENO && isatty(file) ? file : STDERR_FILENO;
+}
+
 /// What fits into one line of the terminal: a line that is broken cannot be renewed.
-static std::string fitted(const std::string& text)
+static std::string fitted(int terminal, const std::string& text)
 {
     winsize size{};
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 2)
+    if (ioctl(terminal, TIOCGWINSZ, &size) != 0 || size.ws_col < 2)
         return text;
     return text.substr(0, size.ws_col - 1u);
 }
 
 ProgressLine::ProgressLine(bool enabled)
-    : m_enabled(enabled), m_terminal(isatty(STDERR_FILENO) == 1), m_start(Clock::now()), m_last(m_start)
+    : m_enabled(enabled), m_file(file_for_progress()), m_terminal(isatty(m_file) == 1), m_start(Clock::now()),
+      m_last(m_start)
 {
 }
 
@@ -46,16 +55,15 @@ void ProgressLine::print(const std::string& text)
 {
     m_shown = m_terminal;
     if (m_terminal)
-        std::fprintf(stderr, "\r\033[K%s", fitted(text).c_str());
+        dprintf(m_file, "\r\033[K%s", fitted(m_file, text).c_str());
     else
-        std::fprintf(stderr, "%s\n", text.c_str());
-    std::fflush(stderr);
+        dprintf(m_file, "%s\n", text.c_str());
 }
 
 void ProgressLine::wipe()
 {
     if (m_shown)
-        std::fputs("\r\033[K", stderr);
+        dprintf(m_file, "\r\033[K");
     m_shown = false;
 }
 

@@ -11,6 +11,10 @@ namespace srisp {
 /// "45 s", "12 min", "3 h 20 min"
 std::string duration_text(double seconds);
 
+/// Environment variable with the file descriptor of the terminal that progress goes to where stderr leads elsewhere:
+/// what a program that runs another leaves to it.
+constexpr char kTerminalVariable[] = "SRISP_TERMINAL";
+
 /// How far work has come, on stderr, once it has taken two seconds: on a terminal one line that is renewed, as wide as
 /// the terminal at most, and wiped at the end; elsewhere a line every half minute.
 class ProgressLine {
@@ -35,7 +39,9 @@ private:
     bool due();
     void print(const std::string& text);
 
-    bool m_enabled, m_terminal, m_shown = false;
+    bool m_enabled;
+    int m_file; ///< where it is shown
+    bool m_terminal, m_shown = false;
     Clock::time_point m_start, m_last;
 };
 

@@ -16,6 +16,14 @@ refuses() {
     [ -z "$(find . -name '*.temp.*')" ]
 }
 
+# tells LINE WORDS…: that line is all there is on stderr.
+tells() {
+    printf '%s\n' "$1" >expected.txt
+    shift
+    exits 1 "$tool" "$@" 2>stderr.txt || return 1
+    cmp expected.txt stderr.txt || { cat stderr.txt; return 1; }
+}
+
 head -c 20000 "$reference" >truncated.dng
 head -c 200000 "$source/configs/models/default.safetensors" >truncated.safetensors
 head -c 1000 "$photo" >truncated.jpg
@@ -40,6 +48,23 @@ check "a truncated reference, by hand-over" refuses 1 "truncated.dng" "$photo" -
 check "an empty folder as reference" refuses 1 "empty" "$photo" --srisp-unprocess empty
 check "a folder as photo" refuses 1 "folder" folder --srisp-unprocess "$reference"
 check "a folder as model" refuses 1 "folder" "$photo" --srisp-unprocess:model=./folder "$reference"
+echo text >text.jpg
+no_jpeg="is not a JPEG file, magic number doesn't match (was 0x7465)"
+check "one line on a photo" tells "srisptool: ERROR: photo 'text.jpg': $no_jpeg" text.jpg --srisp-unprocess "$reference" -o raw.exr
+check "and where it is only read" tells "srisptool: ERROR: image 'text.jpg': $no_jpeg" text.jpg --flip --srisp-params "$reference"
+cp "$photo" s.0001.jpg
+cp text.jpg s.0002.jpg
+check "and on a frame" tells "srisptool: ERROR: photo 's.0002.jpg': $no_jpeg" "s.#.jpg" --srisp-unprocess "$reference" -o "raw.#.sgi"
+check "one line on an image in the middle" tells \
+    "srisptool: ERROR: image '$photo': is not a RAW-like image of srisp's, so it records no parameters; give params=" \
+    "$photo" --flip --srisp-process -o raw.exr
+check "one line where there is no image" tells "srisptool: ERROR: --srisp-unprocess: no image before it" \
+    "$photo" --pop --srisp-unprocess "$reference" -o raw.exr
+check "one line of oiiotool's own" tells "oiiotool ERROR: -o : Could not open \"no/x.exr\" (No such file or directory)" \
+    "$photo" --srisp-unprocess "$reference" -o no/x.exr
+check "errors on stdout where the user wants them there" sh -c \
+    "'$tool' --nostderr '$photo' --srisp-process 2>&1 >out.txt | cmp - /dev/null && grep -q '^srisptool: ERROR: image' out.txt"
+check "an argument of oiiotool's missing" says 2 "--resize lacks an argument" "$tool" "$photo" --srisp-process --resize
 check "CMYK" sh -c "oiiotool '$photo' --ch R,G,B,A=0 -o:separate=0 rgba.tif"
 check "unknown oiiotool command" refuses 1 "Invalid option" "$photo" --srisp-unprocess "$reference" --no-such-command
 check "folder of the output missing" says 1 "no/such" "$tool" "$photo" --srisp-unprocess "$reference" -o no/such/raw.exr

@@ -10,8 +10,8 @@
 namespace srisp::tool {
 
 /// A JSON file for the plugin, in the temporary folder: a recipe (`<n>.srisp`, with the path of the image), or a job
-/// (`<n>.json`): pixels come by hand-over, or from the files of a sequence (`<n>.<frame>.srisp`, of which those that are
-/// on disk say no more than that they are there).
+/// (`<n>.json`): pixels come by hand-over, or from the files of a sequence (`<n>.<frame>.srisp`, of which those that
+/// are on disk say no more than that they are there).
 struct JobFile {
     std::string name;
     nlohmann::json content;

@@ -93,12 +93,15 @@ private:
     void note_image(const std::string& name)
     {
         m_any_image = true;
+        m_typed_name = name;
         m_image_name = m_rules.wildcards ? frame_pattern_of_image(name) : name;
     }
 
     void add_theirs(const Step& step)
     {
         std::vector<std::string> words = step.words;
+        if (step.oiiotool && int(words.size()) <= step.oiiotool->arguments)
+            fail_usage(words[0] + " lacks an argument"); // oiiotool would print its help, too
         const Role role = step.oiiotool ? step.oiiotool->role : Role::acts;
         m_changes_reading |= role == Role::sticky;
         m_acted |= role == Role::acts;
@@ -170,7 +173,7 @@ private:
     std::string add_recipe(const SourceFile& source, nlohmann::json recipe, const std::string& command)
     {
         const std::string number = std::to_string(++m_jobs);
-        m_result.subjects[number] = { m_image_name, source.path, command };
+        m_result.subjects[number] = { m_typed_name, source.path, command, !source.wildcard.empty() };
         recipe["source"] = source.path;
         if (m_options.allow_partial)
             recipe["allow_partial"] = true;
@@ -180,7 +183,8 @@ private:
             return name + ".srisp";
         }
         m_result.files.push_back({ number + ".json", std::move(recipe) });
-        // For oiiotool to find, as it would have found the user's files.
+        // For oiiotool to find, as it would have found the user's files. It tells why one cannot be read only of a name
+        // that is on disk.
         for (const std::string& frame : source.frames)
             m_result.files.push_back({ number + "." + frame + ".srisp", { { "format", "srisp-slot-1" } } });
         return name + "." + source.wildcard + ".srisp";
@@ -223,7 +227,8 @@ private:
     void hand_over(nlohmann::json job, const SrispCommand& command)
     {
         const std::string number = std::to_string(++m_jobs);
-        m_result.subjects[number] = { m_image_name, "", std::string("--") + command.name };
+        m_result.subjects[number] = { m_typed_name, "", std::string("--") + command.name,
+                                      m_image_name != m_typed_name };
         job["action"] = command.action;
         if (!m_image_name.empty())
             job["name"] = m_image_name;
@@ -254,7 +259,8 @@ private:
     bool m_hints = false;           ///< for the next image's reader
     bool m_acted = false;           ///< a command may be waiting for the next image, or run conditionally
     bool m_any_image = false;
-    std::string m_image_name;           ///< of the last image that was read
+    std::string m_typed_name;           ///< of the last image that was read
+    std::string m_image_name;           ///< the same, a frame pattern as printf has it
     std::optional<SourceFile> m_direct; ///< is to be read by our command, which is next
     bool m_raw = false;                 ///< the last of our commands made a RAW-like image
     bool m_depth_given = false;

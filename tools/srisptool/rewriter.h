@@ -1,28 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
 #include "command_line.h"
 #include "job.h"
+#include "messages.h"
 
 namespace srisp::tool {
 
-/// What a name in the temporary folder stands for, in messages.
-struct Subject {
-    std::string image;   ///< as typed, a frame pattern as printf has it; "": it has no name
-    std::string path;    ///< the same, absolute; "": pixels come by hand-over
-    std::string command; ///< the user's; "": the image is only read
-};
-
 /// A command line for the stock oiiotool, and the files that it needs.
 struct Rewritten {
-    std::vector<std::string> words;          ///< without the program's name
-    std::vector<JobFile> files;              ///< to be written into the temporary folder
-    std::map<std::string, Subject> subjects; ///< by the number that the names of the files begin with
-    std::vector<std::string> warnings;       ///< for stderr
+    std::vector<std::string> words;    ///< without the program's name
+    std::vector<JobFile> files;        ///< to be written into the temporary folder
+    Subjects subjects;                 ///< of these files, for messages
+    std::vector<std::string> warnings; ///< for stderr
 };
 
 struct RewriteOptions {

@@ -54,10 +54,9 @@ std::optional<SourceFile> find_source_file(const std::string& name, const NameRu
     }
     source.path = fs::absolute(frame_pattern_of_image(name)).string();
     source.wildcard = name.substr(wildcard.begin, wildcard.length);
-    if (rules.frames || wildcard.has_range)
-        return source;
     source.frames = frames_on_disk(name, wildcard);
-    return source.frames.empty() ? std::nullopt : std::optional<SourceFile>(source);
+    const bool known = rules.frames || wildcard.has_range || !source.frames.empty();
+    return known ? std::optional<SourceFile>(source) : std::nullopt;
 }
 
 } // namespace srisp::tool

@@ -11,7 +11,7 @@ namespace srisp::tool {
 struct SourceFile {
     std::string path;                ///< absolute; of a sequence the frame pattern as printf has it
     std::string wildcard;            ///< of a sequence, as typed: `1-9@@`
-    std::vector<std::string> frames; ///< the numbers on disk, where nothing else says which: oiiotool looks for files
+    std::vector<std::string> frames; ///< the numbers of those on disk
 };
 
 /// What says how a name is to be taken, at its place in the command line.

@@ -3,16 +3,21 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+
+#include "base/progress.h"
 
 #include "../common/failure.h"
 #include "../common/own_location.h"
 #include "../common/shell_quote.h"
 #include "../common/temporary_folder.h"
 #include "child_process.h"
+#include "messages.h"
 #include "output_guard.h"
 #include "rewriter.h"
 
@@ -78,6 +83,35 @@ void refuse_lost_outputs(const fs::path& folder)
                  "' was lost: after one of our commands {TOP.filename} is a temporary "
                  "name; write the output's name out");
     }
+}
+
+/// Where oiiotool writes its messages.
+int error_stream(const std::vector<Step>& steps)
+{
+    return contains(steps, "nostderr") ? STDOUT_FILENO : STDERR_FILENO;
+}
+
+void write_all(int stream, std::string_view text)
+{
+    while (!text.empty()) {
+        const ssize_t written = write(stream, text.data(), text.size());
+        if (written < 0 && errno != EINTR)
+            return; // nobody is there to be told
+        text.remove_prefix(std::size_t(std::max<ssize_t>(written, 0)));
+    }
+}
+
+int run_with_own_messages(HeldSignals& signals, const Rewritten& rewritten, const fs::path& folder,
+                          const std::vector<std::string>& environment, int stream)
+{
+    int lines = 1;
+    for (const std::string& word : rewritten.words)
+        lines += static_cast<int>(std::count(word.begin(), word.end(), '\n'));
+    Messages messages(folder.string(), rewritten.subjects, lines);
+    const Listener listener{ stream, [&](std::string_view bytes) { write_all(stream, messages.take(bytes)); } };
+    const int exit_code = signals.run(rewritten.words, environment, listener);
+    write_all(stream, messages.finish());
+    return exit_code;
 }
 
 } // namespace
@@ -161,7 +195,7 @@ int run_rewritten(const std::string& program, const std::vector<Step>& steps)
     options.progress = options.notes && isatty(STDERR_FILENO) && !contains(steps, "no-progress");
     Rewritten rewritten = rewrite(steps, options);
     for (const std::string& warning : rewritten.warnings)
-        std::fprintf(stderr, "srisptool WARNING: %s\n", warning.c_str());
+        std::fprintf(stderr, "srisptool: WARNING: %s\n", warning.c_str());
     for (const JobFile& file : rewritten.files)
         write_file(folder.path() / file.name, json_text(file.content));
 
@@ -170,8 +204,11 @@ int run_rewritten(const std::string& program, const std::vector<Step>& steps)
     fs::create_symlink(plugins / "output_guard.so", folder.path() / kGuardLink);
     set_variable(environment, "LD_PRELOAD", (folder.path() / kGuardLink).string(), true);
     set_variable(environment, kGuardListVariable, (folder.path() / kStartedOutputs).string());
+    // Where the plugin shows its progress: its stderr is a pipe.
+    if (options.progress)
+        set_variable(environment, kTerminalVariable, std::to_string(dup(STDERR_FILENO)));
     rewritten.words.insert(rewritten.words.begin(), stock.string());
-    const int exit_code = signals.run(rewritten.words, environment);
+    const int exit_code = run_with_own_messages(signals, rewritten, folder.path(), environment, error_stream(steps));
     if (exit_code == 0)
         refuse_lost_outputs(folder.path());
     return exit_code;

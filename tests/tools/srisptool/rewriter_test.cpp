@@ -187,7 +187,8 @@ TEST_CASE("messages can say what a temporary name stands for")
     CHECK(result.subjects.at("1").command == "");
     CHECK(result.subjects.at("2").command == "--srisp-params");
     CHECK(result.subjects.at("2").path == "");
-    CHECK(result.subjects.at("3").image == "x.%04d.tif");
+    CHECK(result.subjects.at("3").image == "x.1-2#.tif");
+    CHECK(result.subjects.at("3").sequence);
     CHECK(result.subjects.at("3").command == "--srisp-process");
 }
 
@@ -367,6 +368,14 @@ TEST_CASE("--quiet and --no-progress are ours: oiiotool gets its -q")
     const Files files;
     CHECK(rewritten({ "--quiet", "--no-progress", files.photo, "--srisp-process" }).words ==
           joined({ { "-q", kReadNow, "/T/1.srisp" } }));
+}
+
+TEST_CASE("a command of oiiotool's that lacks an argument is refused before anything is done")
+{
+    CHECK(failure_of([] {
+              rewritten({ "a.jpg", "--srisp-process", "--tile", "64" });
+          }) == "2: --tile lacks an argument");
+    CHECK(failure_of([] { rewritten({ "a.jpg", "--srisp-process", "-i" }); }) == "2: -i lacks an argument");
 }
 
 TEST_CASE("without an image there is nothing to do")

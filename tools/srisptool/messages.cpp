@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "messages.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+#include <utility>
+
+#include "recipe/frame_pattern.h"
+
+namespace srisp::tool {
+
+namespace {
+
+const std::string kError = "oiiotool ERROR", kWarning = "oiiotool WARNING";
+const char kRepeats[] = "Full command line was:";
+const char kNothingToWrite[] = "did not have any current image to output";
+const std::string kOurWriter = kError + ": -o:datatype=float:bits=0:autocc=0"; // as the rewriter writes it
+const std::string kMissing = kError + ": read : File does not exist: ";
+
+bool begins_with(const std::string& text, const std::string& beginning)
+{
+    return text.compare(0, beginning.size(), beginning) == 0;
+}
+
+bool contains(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to)
+{
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+        text.replace(at, from.size(), to);
+}
+
+/// A folder is literal, whatever it holds.
+std::string frame_of(const std::string& pattern, const std::string& frame)
+{
+    std::filesystem::path file = pattern;
+    file.replace_filename(with_frame(file.filename().string(), frame));
+    return file.string();
+}
+
+std::string typed_name(const Subject& subject, const std::string& frame)
+{
+    return subject.sequence && !frame.empty() ? frame_of(frame_pattern_of_image(subject.image), frame) : subject.image;
+}
+
+/// What the user takes the image for.
+std::string kind_of(const Subject& subject)
+{
+    return subject.command == "--srisp-unprocess" || subject.command == "--srisp-params" ? "photo" : "image";
+}
+
+std::string named(const Subject& subject, const std::string& frame)
+{
+    return subject.image.empty() ? "image" : kind_of(subject) + " '" + typed_name(subject, frame) + "'";
+}
+
+/// Takes the beginning off, if it is there.
+bool take_off(std::string& text, const std::string& beginning)
+{
+    const bool there = !beginning.empty() && begins_with(text, beginning);
+    if (there)
+        text.erase(0, beginning.size());
+    return there;
+}
+
+/// A reason that says itself which file is meant: "reference 'a.dng': …".
+bool names_a_file(const std::string& reason)
+{
+    static const std::regex file("[a-z][a-z ]* '.*");
+    return std::regex_match(reason, file);
+}
+
+/// The reason why an image was refused, behind its name as the user typed it.
+std::string reason_for(const Subject& subject, const std::string& frame, std::string reason)
+{
+    const std::string typed = typed_name(subject, frame);
+    const std::string path = subject.sequence && !subject.path.empty() ? frame_of(subject.path, frame) : subject.path;
+    for (const std::string& own : { path, typed }) {
+        if (own.empty())
+            continue;
+        const bool image = take_off(reason, own + ": ") || take_off(reason, "source '" + own + "'") ||
+                           take_off(reason, "photo '" + own + "'") || take_off(reason, "image '" + own + "'");
+        if (!image)
+            continue;
+        if (begins_with(reason, " ")) // 'a.jpg' does not exist
+            return named(subject, frame) + reason;
+        take_off(reason, ": ");
+        // Readers begin with the name, too.
+        if (take_off(reason, '"' + own + '"') || take_off(reason, "'" + own + "'") || take_off(reason, own)) {
+            take_off(reason, ":");
+            take_off(reason, " ");
+        }
+        replace_all(reason, path.empty() ? own : path, typed);
+        return named(subject, frame) + ": " + reason;
+    }
+    return names_a_file(reason) ? reason : named(subject, frame) + ": " + reason;
+}
+
+} // namespace
+
+std::string Messages::take(std::string_view bytes)
+{
+    std::string text;
+    for (const char c : bytes) {
+        if (c != '\n') {
+            m_line += c;
+            continue;
+        }
+        text += shown(m_line);
+        m_line.clear();
+    }
+    return text;
+}
+
+std::string Messages::finish()
+{
+    const std::string text = m_line.empty() ? "" : shown(m_line);
+    m_line.clear();
+    return text + release_warning();
+}
+
+std::string Messages::release_warning()
+{
+    m_held_for = nullptr;
+    return std::exchange(m_held, "");
+}
+
+std::string Messages::shown(const std::string& line)
+{
+    if (m_to_skip > 0) {
+        m_to_skip = line == "> " ? 0 : m_to_skip - 1; // oiiotool may not know its command line
+        return "";
+    }
+    if (line == kRepeats) {
+        m_to_skip = m_lines;
+        return "";
+    }
+    const auto name = find_name(line);
+    if (name && begins_with(line, kWarning) && contains(line, kNothingToWrite)) {
+        const std::string before = release_warning();
+        m_held = "srisptool: WARNING: " + name->subject->command + ": no image before it\n";
+        m_held_for = name->subject;
+        return before;
+    }
+    if (name && name->subject == m_held_for)
+        m_held.clear(); // the error says it
+    const std::string before = release_warning();
+    return before + (begins_with(line, kError) ? error(line, name) : with_own_names(line)) + "\n";
+}
+
+std::string Messages::error(const std::string& text, const std::optional<Name>& name) const
+{
+    const std::string ours = "srisptool: ERROR: ";
+    if (!name) {
+        if (begins_with(text, kMissing)) {
+            std::string file = text.substr(kMissing.size());
+            std::replace(file.begin(), file.end(), '"', '\'');
+            return ours + "image " + file + " does not exist";
+        }
+        // Our writer's, whose name is not in it; the reason says which image is meant.
+        if (!begins_with(text, kOurWriter))
+            return with_own_names(text);
+        const std::string reason = text.substr(text.find(" : ") + 3);
+        for (const auto& [number, subject] : m_subjects)
+            if (!subject.image.empty() && begins_with(reason, subject.image + ": "))
+                return ours + reason_for(subject, "", reason);
+        return ours + reason;
+    }
+    const Subject& subject = *name->subject;
+    if (begins_with(text, kMissing))
+        return ours + (subject.path.empty() ? subject.command + ": no image before it"
+                                            : named(subject, name->frame) + " does not exist");
+    std::string reason = text.substr(name->end); // behind `read : "name`
+    take_off(reason, "\"");
+    return take_off(reason, ": ") ? ours + reason_for(subject, name->frame, reason) : with_own_names(text);
+}
+
+std::optional<Messages::Name> Messages::find_name(const std::string& text) const
+{
+    static const std::regex name("([0-9]+)(?:\\.([^ \"/]*?))?\\.(?:srisp|json)");
+    for (std::size_t at = 0; (at = text.find(m_folder + "/", at)) != std::string::npos; ++at) {
+        std::smatch match;
+        const auto begin = text.begin() + static_cast<std::ptrdiff_t>(at + m_folder.size() + 1);
+        if (!std::regex_search(begin, text.end(), match, name, std::regex_constants::match_continuous))
+            continue;
+        const auto found = m_subjects.find(match.str(1));
+        if (found == m_subjects.end())
+            continue;
+        const bool number = match.str(2).find_first_not_of("-0123456789") == std::string::npos;
+        return Name{ at, std::size_t(match[0].second - text.begin()), &found->second, number ? match.str(2) : "" };
+    }
+    return {};
+}
+
+std::string Messages::with_own_names(std::string text) const
+{
+    for (auto name = find_name(text); name; name = find_name(text)) {
+        const std::string own = typed_name(*name->subject, name->frame);
+        text.replace(name->begin, name->end - name->begin, own.empty() ? "image" : own);
+    }
+    replace_all(text, m_folder, "(temporary folder)");
+    // oiiotool writes to `x.01234567.temp.exr` first.
+    static const std::regex unfinished("\\.[0-9A-Fa-f]{8}\\.temp(?=\\.)");
+    return std::regex_replace(text, unfinished, "");
+}
+
+} // namespace srisp::tool
