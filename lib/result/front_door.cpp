@@ -7,6 +7,7 @@
 
 #include <unistd.h>
 
+#include "base/png_orientation.h"
 #include "photo/pixel_source.h"
 #include "recipe/recipe.h"
 #include "result/result_image.h"
@@ -36,9 +37,16 @@ Status write_image(OIIO::ImageOutput& output, const std::string& path, const OII
 {
     OIIO::ImageSpec spec = image;
     spec.set_format(stored_type(output.format_name()));
+    const int orientation = spec.get_int_attribute("Orientation", 1);
+    const bool png = output.format_name() == std::string("png");
+    if (png && orientation > 1 && orientation <= 8)
+        spec.attribute(kPngOrientationKey, std::to_string(orientation) + kPngOrientationRest);
     spec.tile_width = spec.tile_height = 0; // tiles of the photo may have a size that this writer refuses
-    if (output.open(path, spec) && output.write_image(OIIO::TypeFloat, pixels) && output.close())
+    if (output.open(path, spec) && output.write_image(OIIO::TypeFloat, pixels) && output.close()) {
+        if (png)
+            place_png_orientation(path.c_str());
         return {};
+    }
     const std::string reason = output.geterror();
     return Error{ reason.empty() ? "its writer does not say why" : reason };
 }

@@ -16,13 +16,19 @@ static bool contains_word(const char* list, const std::string& word)
     return !word.empty() && (" " + std::string(list) + " ").find(" " + word + " ") != std::string::npos;
 }
 
+static std::string extension_of(const std::string& name)
+{
+    std::string extension = name.substr(name.find_last_of("./") + 1);
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
+    return extension;
+}
+
 Depth deepest(const std::string& name)
 {
     // Measured with oiiotool 2.4.7: what each writer makes of float pixels. Extensions and format names of
     // `oiiotool --list-formats`.
-    std::string extension = name.substr(name.find_last_of("./") + 1);
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
+    const std::string extension = extension_of(name);
     if (contains_word("png iff z sgi rgb rgba bw int inta jp2 j2k j2c jpeg2000", extension))
         return Depth::sixteen;
     if (contains_word(
@@ -42,16 +48,29 @@ static Modifiers oiiotool_modifiers(const std::string& word)
     }
 }
 
+std::string output_format(const std::vector<std::string>& words)
+{
+    std::string format = words[1];
+    for (const auto& [name, value] : oiiotool_modifiers(words[0]))
+        if (name == "fileformatname")
+            format = value;
+    return extension_of(format);
+}
+
+bool holds_orientation(const std::string& format)
+{
+    // Measured with OpenImageIO 2.4.7: DPX, FITS, JPEG, EXR and TIFF do; PNG by our guard.
+    return !contains_word("bmp dib gif hdr rgbe heic heif heics avif ico iff z ppm pgm pbm pnm rla sgi rgb rgba bw int "
+                          "inta tga tpic targa webp jp2 j2k j2c jpeg2000 zfile",
+                          format);
+}
+
 std::string choose_depth(std::vector<std::string>& words)
 {
     for (const char* name : { "datatype", "type", "bits" })
         if (has_modifier(words[0], name))
             return {};
-    std::string format = words[1];
-    for (const auto& [name, value] : oiiotool_modifiers(words[0]))
-        if (name == "fileformatname")
-            format = value;
-    const Depth depth = deepest(format);
+    const Depth depth = deepest(output_format(words));
     if (depth == Depth::sixteen)
         words[0] += ":datatype=uint16";
     if (depth != Depth::eight)

@@ -16,8 +16,14 @@ enum class Depth {
 /// By the extension of a file name, or the name of a format.
 Depth deepest(const std::string& name);
 
+/// The format that an output command (`-o` and the file's name) writes: an extension or a format's name, in lower case.
+std::string output_format(const std::vector<std::string>& words);
+
+/// Whether files of that format can hold how an image is to be turned: as OpenImageIO 2.4 writes them.
+bool holds_orientation(const std::string& format);
+
 /// For a RAW-like image 8 bits are too few, and that is what oiiotool writes where the format cannot hold float: an
-/// output command (`-o` and the file's name) that says no depth gets the deepest that its format holds. Returns a
+/// output command that says no depth gets the deepest that its format holds. Returns a
 /// warning where that is 8 bits, else nothing.
 std::string choose_depth(std::vector<std::string>& words);
 

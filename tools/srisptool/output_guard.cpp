@@ -6,6 +6,7 @@
 // * once any write to a file has failed for want of space, renaming an unfinished output fails with that error.
 // oiiotool then
 //   removes the file, says so, and exits with 1;
+// * a PNG file gets its orientation where readers look for it (png_orientation.h);
 // * every unfinished output is listed for srisptool, which removes those that are left when oiiotool has ended.
 
 #include <dlfcn.h>
@@ -23,6 +24,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
+
+#include "base/png_orientation.h"
 
 #include "output_guard.h"
 
@@ -187,5 +190,7 @@ GUARDED int rename(const char* from, const char* to)
         errno = failed;
         return -1;
     }
+    if (is_unfinished_output(from))
+        srisp::place_png_orientation(from);
     return next(from, to);
 }

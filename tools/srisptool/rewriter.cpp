@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/png_orientation.h"
 #include "recipe/frame_pattern.h"
 
 #include "../common/failure.h"
@@ -40,6 +41,27 @@ std::size_t end_of_reading(const std::vector<Step>& steps)
     return end;
 }
 
+/// What `--reorient` stands for: oiiotool 2.4 takes orientations 5 and 7 for each other.
+std::vector<std::string> orienting()
+{
+    return { "--orientcw",
+             "--orientccw", // the attribute must be there
+             "--if",
+             "{TOP.Orientation==5}",
+             "--transpose",
+             "--orientation",
+             "1",
+             "--endif",
+             "--if",
+             "{TOP.Orientation==7}",
+             "--transpose",
+             "--rotate180",
+             "--orientation",
+             "1",
+             "--endif",
+             "--reorient" };
+}
+
 /// Whether a step prints names of images on the stack, or may: there the user's own have to be.
 bool prints_names(const Step& step)
 {
@@ -67,6 +89,7 @@ public:
         m_result.words.push_back("--nosoftwareattrib");
         for (std::size_t i = 0; i < m_steps.size(); ++i) {
             const Step& step = m_steps[i];
+            unmark(step);
             if (step.srisp)
                 add_ours(step);
             else if (!name_read_by(step).empty())
@@ -128,13 +151,68 @@ private:
         else if (step.is_named("o") && words.size() > 1 && m_raw && !m_depth_given)
             if (const std::string warning = choose_depth(words); !warning.empty())
                 m_result.warnings.push_back(warning);
+        if ((step.is_named("autoorient") || step.is_named("auto-orient")) && !m_acted)
+            m_orients = true; // each image by itself
+        else if (step.is_named("reorient") && m_any_image)
+            emit_evaluated(orienting());
+        else if (step.is_named("o") && m_any_image && output_format(words) == "png")
+            write_oriented(words);
+        else if (step.is_named("o") && m_any_image && m_options.notes && !m_dry_run &&
+                 !holds_orientation(output_format(words)))
+            write_turned(words);
+        else
+            emit(words);
+    }
+
+    /// Words that hold expressions of ours.
+    void emit_evaluated(const std::vector<std::string>& words)
+    {
+        if (!m_rules.expressions)
+            emit({ "--evalon" });
         emit(words);
+        if (!m_rules.expressions)
+            emit({ "--evaloff" });
+    }
+
+    /// A PNG file, whose writer knows no orientation.
+    void write_oriented(const std::vector<std::string>& words)
+    {
+        emit({ "--orientcw", "--orientccw" }); // the attribute must be there
+        emit_evaluated({ "--sattrib", kPngOrientationKey, std::string("{TOP.Orientation}") + kPngOrientationRest });
+        emit(words);
+        m_marked = true;
+    }
+
+    /// A file that cannot say how it is to be turned. Only oiiotool knows whether that is lost: it leaves a mark.
+    void write_turned(const std::vector<std::string>& words)
+    {
+        const std::string mark = std::to_string(++m_jobs) + ".turned.pgm";
+        m_result.notes[mark] = "'" + words[1] +
+                               "' cannot hold an orientation, so the picture lies there as the camera stored it; "
+                               "--autoorient before the photo or --reorient before -o turns it";
+        emit({ "--orientcw", "--orientccw" }); // the attribute must be there
+        emit_evaluated({ "--if", "{TOP.Orientation!=1}", "--create", "1x1", "1", "-o", m_options.folder + "/" + mark,
+                         "--pop", "--endif" });
+        emit(words);
+    }
+
+    /// Not at once: oiiotool warns of a change behind the last output.
+    void unmark(const Step& next)
+    {
+        if (!m_marked || (next.oiiotool && next.oiiotool->role == Role::plain))
+            return;
+        emit({ "--eraseattrib", kPngOrientationKey });
+        m_marked = false;
     }
 
     void add_image(const Step& step, std::size_t i)
     {
         const std::string name = name_read_by(step);
         note_image(name);
+        if (m_orients && m_acted) { // a command may wait for the image, so nothing may come between
+            emit({ "--autoorient" });
+            m_orients = false;
+        }
         const bool is_label = std::find(m_labels.begin(), m_labels.end(), name) != m_labels.end();
         const auto source = is_label || m_theirs_only ? std::nullopt : find_source_file(name, m_rules);
         const bool before_ours =
@@ -147,6 +225,8 @@ private:
             read_as_stored(step, *source);
         else
             emit(step.words);
+        if (m_orients && !is_label)
+            emit_evaluated(orienting());
         m_hints = false;
     }
 
@@ -235,13 +315,10 @@ private:
         m_result.files.push_back({ number + ".json", std::move(job) });
         // One name per frame: OpenImageIO caches by name.
         const std::string slot = m_options.folder + "/" + number + ".{FRAME_NUMBER}.srisp";
-        if (!m_rules.expressions)
-            emit({ "--evalon" });
-        emit({ kHandOver, slot });
         if (command.effect == Effect::replaces)
-            emit({ "--pop", kTakeBack, slot });
-        if (!m_rules.expressions)
-            emit({ "--evaloff" });
+            emit_evaluated({ kHandOver, slot, "--pop", kTakeBack, slot });
+        else
+            emit_evaluated({ kHandOver, slot });
     }
 
     const std::vector<Step>& m_steps;
@@ -257,6 +334,7 @@ private:
     bool m_prints = false;          ///< something is printed of each image that is read
     bool m_theirs_only = false;     ///< what is in force only oiiotool's reading knows
     bool m_hints = false;           ///< for the next image's reader
+    bool m_orients = false;         ///< --autoorient, which is done by commands of ours
     bool m_acted = false;           ///< a command may be waiting for the next image, or run conditionally
     bool m_any_image = false;
     std::string m_typed_name;           ///< of the last image that was read
@@ -264,6 +342,7 @@ private:
     std::optional<SourceFile> m_direct; ///< is to be read by our command, which is next
     bool m_raw = false;                 ///< the last of our commands made a RAW-like image
     bool m_depth_given = false;
+    bool m_marked = false; ///< the image on top bears the text that becomes a PNG file's orientation
     bool m_dry_run = false;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,10 +13,11 @@ namespace srisp::tool {
 
 /// A command line for the stock oiiotool, and the files that it needs.
 struct Rewritten {
-    std::vector<std::string> words;    ///< without the program's name
-    std::vector<JobFile> files;        ///< to be written into the temporary folder
-    Subjects subjects;                 ///< of these files, for messages
-    std::vector<std::string> warnings; ///< for stderr
+    std::vector<std::string> words;           ///< without the program's name
+    std::vector<JobFile> files;               ///< to be written into the temporary folder
+    Subjects subjects;                        ///< of these files, for messages
+    std::vector<std::string> warnings;        ///< for stderr
+    std::map<std::string, std::string> notes; ///< for stderr, where oiiotool made a file of that name in the folder
 };
 
 struct RewriteOptions {

@@ -72,12 +72,13 @@ void write_file(const fs::path& path, const std::string& text)
 
 /// A name that the user made by an expression of an image's name, such as {TOP.filename}, may lie in our folder, where
 /// it would be lost without a word.
-void refuse_lost_outputs(const fs::path& folder)
+void refuse_lost_outputs(const fs::path& folder, const Rewritten& rewritten)
 {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
         const bool ours = name == "lock" || name == kGuardLink || name == kStartedOutputs ||
-                          entry.path().extension() == ".srisp" || entry.path().extension() == ".json";
+                          entry.path().extension() == ".srisp" || entry.path().extension() == ".json" ||
+                          rewritten.notes.count(name) > 0;
         if (!ours)
             fail("output '" + entry.path().string() +
                  "' was lost: after one of our commands {TOP.filename} is a temporary "
@@ -209,8 +210,11 @@ int run_rewritten(const std::string& program, const std::vector<Step>& steps)
         set_variable(environment, kTerminalVariable, std::to_string(dup(STDERR_FILENO)));
     rewritten.words.insert(rewritten.words.begin(), stock.string());
     const int exit_code = run_with_own_messages(signals, rewritten, folder.path(), environment, error_stream(steps));
+    for (const auto& [mark, note] : rewritten.notes)
+        if (fs::exists(folder.path() / mark))
+            std::fprintf(stderr, "srisptool: note: %s\n", note.c_str());
     if (exit_code == 0)
-        refuse_lost_outputs(folder.path());
+        refuse_lost_outputs(folder.path(), rewritten);
     return exit_code;
 }
 

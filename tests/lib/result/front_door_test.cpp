@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 
 #include <doctest/doctest.h>
 
@@ -71,6 +73,18 @@ TEST_CASE("one call leads from files to pixels, and one back")
     const auto replayed = unprocess(kPhoto, "", given);
     REQUIRE_MESSAGE(replayed, (replayed ? "" : replayed.error().message));
     CHECK(replayed->pixels() == raw->pixels());
+}
+
+TEST_CASE("a PNG file holds the orientation")
+{
+    const ScratchFolder folder;
+    OIIO::ImageSpec spec(4, 2, 3, OIIO::TypeFloat);
+    spec.attribute("Orientation", 6);
+    REQUIRE(Image(spec, std::vector<float>(24, 0.25f)).save(folder.path("a.png")));
+    std::ostringstream bytes;
+    bytes << std::ifstream(folder.path("a.png"), std::ios::binary).rdbuf();
+    CHECK(has(bytes.str(), "eXIf"));
+    CHECK(!has(bytes.str(), "srisp:Orientation"));
 }
 
 TEST_CASE("an image is saved in the type that its file can hold, under its name only when it is complete")

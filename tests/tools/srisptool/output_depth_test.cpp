@@ -50,3 +50,18 @@ TEST_CASE("the installed oiiotool writes float pixels as deep as the table says"
             CHECK(is("16." + extension, " uint16 ") == (depth == Depth::sixteen));
     }
 }
+
+TEST_CASE("an output's format is its extension, or what the command says")
+{
+    CHECK(output_format({ "-o", "a/b.c/x.#.PNG" }) == "png");
+    CHECK(output_format({ "-o:datatype=half:fileformatname=OpenEXR", "x.png" }) == "openexr");
+    CHECK(output_format({ "-o:broken", "x.tif" }) == "tif");
+}
+
+TEST_CASE("formats without orientation are known")
+{
+    for (const char* format : { "ppm", "bmp", "sgi", "webp", "jp2" })
+        CHECK(!holds_orientation(format));
+    for (const char* format : { "png", "tif", "exr", "openexr", "jpg", "jpeg", "dpx", "" })
+        CHECK(holds_orientation(format));
+}
