@@ -16,6 +16,7 @@ const std::string kError = "oiiotool ERROR", kWarning = "oiiotool WARNING";
 const char kRepeats[] = "Full command line was:";
 const char kNothingToWrite[] = "did not have any current image to output";
 const std::string kOurWriter = kError + ": -o:datatype=float:bits=0:autocc=0"; // as the rewriter writes it
+const std::string kNote = "srisp: note: ";
 const std::string kMissing = kError + ": read : File does not exist: ";
 
 bool begins_with(const std::string& text, const std::string& beginning)
@@ -45,6 +46,12 @@ std::string frame_of(const std::string& pattern, const std::string& frame)
 std::string typed_name(const Subject& subject, const std::string& frame)
 {
     return subject.sequence && !frame.empty() ? frame_of(frame_pattern_of_image(subject.image), frame) : subject.image;
+}
+
+/// All before the last part of a path.
+std::string folder_of(const std::string& path)
+{
+    return path.substr(0, path.rfind('/') + 1);
 }
 
 /// What the user takes the image for.
@@ -201,6 +208,15 @@ std::string Messages::with_own_names(std::string text) const
     for (auto name = find_name(text); name; name = find_name(text)) {
         const std::string own = typed_name(*name->subject, name->frame);
         text.replace(name->begin, name->end - name->begin, own.empty() ? "image" : own);
+    }
+    // The plugin's notes begin with an image's path.
+    if (begins_with(text, kNote)) {
+        const std::string folder = folder_of(text.substr(kNote.size(), text.find(": ", kNote.size()) - kNote.size()));
+        for (const auto& [number, subject] : m_subjects)
+            if (!folder.empty() && folder == folder_of(subject.path)) {
+                text.replace(kNote.size(), folder.size(), folder_of(subject.image));
+                break;
+            }
     }
     replace_all(text, m_folder, "(temporary folder)");
     // oiiotool writes to `x.01234567.temp.exr` first.

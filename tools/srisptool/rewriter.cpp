@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/png_orientation.h"
 #include "recipe/frame_pattern.h"
 
 #include "../common/failure.h"
+#include "orientation_words.h"
 #include "output_depth.h"
 #include "source_file.h"
 
@@ -39,27 +39,6 @@ std::size_t end_of_reading(const std::vector<Step>& steps)
         if (is_for_images(steps[i]) || (end > 0 && (steps[i].is_named("endfor") || steps[i].is_named("endwhile"))))
             end = i + 1;
     return end;
-}
-
-/// What `--reorient` stands for: oiiotool 2.4 takes orientations 5 and 7 for each other.
-std::vector<std::string> orienting()
-{
-    return { "--orientcw",
-             "--orientccw", // the attribute must be there
-             "--if",
-             "{TOP.Orientation==5}",
-             "--transpose",
-             "--orientation",
-             "1",
-             "--endif",
-             "--if",
-             "{TOP.Orientation==7}",
-             "--transpose",
-             "--rotate180",
-             "--orientation",
-             "1",
-             "--endif",
-             "--reorient" };
 }
 
 /// Whether a step prints names of images on the stack, or may: there the user's own have to be.
@@ -154,7 +133,7 @@ private:
         if ((step.is_named("autoorient") || step.is_named("auto-orient")) && !m_acted)
             m_orients = true; // each image by itself
         else if (step.is_named("reorient") && m_any_image)
-            emit_evaluated(orienting());
+            turn_upright();
         else if (step.is_named("o") && m_any_image && output_format(words) == "png")
             write_oriented(words);
         else if (step.is_named("o") && m_any_image && m_options.notes && !m_dry_run &&
@@ -174,11 +153,17 @@ private:
             emit({ "--evaloff" });
     }
 
+    void turn_upright()
+    {
+        emit(orientation::ensure());
+        emit_evaluated(orientation::turn_upright());
+    }
+
     /// A PNG file, whose writer knows no orientation.
     void write_oriented(const std::vector<std::string>& words)
     {
-        emit({ "--orientcw", "--orientccw" }); // the attribute must be there
-        emit_evaluated({ "--sattrib", kPngOrientationKey, std::string("{TOP.Orientation}") + kPngOrientationRest });
+        emit(orientation::ensure());
+        emit_evaluated(orientation::mark_for_png());
         emit(words);
         m_marked = true;
     }
@@ -190,9 +175,8 @@ private:
         m_result.notes[mark] = "'" + words[1] +
                                "' cannot hold an orientation, so the picture lies there as the camera stored it; "
                                "--autoorient before the photo or --reorient before -o turns it";
-        emit({ "--orientcw", "--orientccw" }); // the attribute must be there
-        emit_evaluated({ "--if", "{TOP.Orientation!=1}", "--create", "1x1", "1", "-o", m_options.folder + "/" + mark,
-                         "--pop", "--endif" });
+        emit(orientation::ensure());
+        emit_evaluated(orientation::tell_turned(m_options.folder + "/" + mark));
         emit(words);
     }
 
@@ -201,7 +185,7 @@ private:
     {
         if (!m_marked || (next.oiiotool && next.oiiotool->role == Role::plain))
             return;
-        emit({ "--eraseattrib", kPngOrientationKey });
+        emit(orientation::unmark());
         m_marked = false;
     }
 
@@ -226,7 +210,7 @@ private:
         else
             emit(step.words);
         if (m_orients && !is_label)
-            emit_evaluated(orienting());
+            turn_upright();
         m_hints = false;
     }
 

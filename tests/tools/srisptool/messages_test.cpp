@@ -82,6 +82,13 @@ TEST_CASE("errors of oiiotool's own stay recognisable, without the command line 
     CHECK(shown("libx: /T/2.srisp, /T/5.json, /T/guard.so\n") == "libx: b.png, image, (temporary folder)/guard.so\n");
 }
 
+TEST_CASE("notes name the image as the user did")
+{
+    CHECK(shown("srisp: note: /home/a.jpg: has no profile\n") == "srisp: note: a.jpg: has no profile\n");
+    CHECK(shown("srisp: note: /home/#/s.0001.tif: is dark\n") == "srisp: note: s.0001.tif: is dark\n");
+    CHECK(shown("srisp: note: /elsewhere/a.jpg: is dark\n") == "srisp: note: /elsewhere/a.jpg: is dark\n");
+}
+
 TEST_CASE("a command line of several lines is left out as a whole, one that is not known is one line")
 {
     CHECK(shown("Full command line was:\n> oiiotool --echo \"a\nb\"\nnext\n", 2) == "next\n");
