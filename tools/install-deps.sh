@@ -9,7 +9,7 @@ set -eu
 packages="
     cmake g++ ninja-build pkg-config
     doctest-dev libcli11-dev libhwy-dev libimath-dev liblcms2-dev libopencolorio-dev libopenexr-dev libopenimageio-dev
-    libraw-dev libtiff-dev
+    libjpeg-dev libraw-dev libtiff-dev
     libxxhash-dev nlohmann-json3-dev
     openimageio-tools python3-openimageio python3-numpy fonts-dejavu-core
 "

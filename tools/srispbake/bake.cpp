@@ -175,7 +175,9 @@ BakeSummary bake(const BakeOptions& options)
         for (const OutputName& name : names)
             if (!name.cube)
                 refuse_bake_of_another(name.path, absolute_path(options.reference));
-    BakeSummary summary{ choice.photo ? choice.photo->name : "", choice.full ? choice.full->model->name() : "", {} };
+    BakeSummary summary{
+        choice.photo ? choice.photo->name : "", choice.full ? choice.full->model->name() : "", {}, choice.notes
+    };
     std::vector<std::future<Baked>> bakes;
     for (const OutputName& name : names)
         bakes.push_back(std::async(std::launch::async, name.cube ? bake_cube : bake_clf, std::cref(name),

@@ -21,6 +21,7 @@ struct BakeReport {
 struct BakeSummary {
     std::string photo, full_model; ///< what errors were measured on; empty where there was none
     std::vector<BakeReport> files;
+    std::vector<std::string> notes; ///< what was ignored, assumed or moved in reading and choosing
 };
 
 /// The errors in words: one sentence for the pointwise pipeline and, where it was measured, one for the full one.
