@@ -55,14 +55,18 @@ JsonObjectReader::JsonObjectReader(const json& object, std::string where) : m_ob
         fail("is not a JSON object");
 }
 
+const json* JsonObjectReader::take_optional(const std::string& key)
+{
+    if (std::find(m_known.begin(), m_known.end(), key) == m_known.end())
+        m_known.push_back(key);
+    const auto found = m_error.empty() ? m_object.find(key) : m_object.end();
+    return found == m_object.end() ? nullptr : &*found;
+}
+
 const json& JsonObjectReader::take(const std::string& key)
 {
     static const json nothing;
-    m_known.push_back(key);
-    if (!m_error.empty())
-        return nothing;
-    const auto found = m_object.find(key);
-    if (found != m_object.end())
+    if (const json* found = take_optional(key))
         return *found;
     fail("has no '" + key + "'");
     return nothing;

@@ -21,6 +21,8 @@ public:
     JsonObjectReader(const json& object, std::string where);
 
     const json& take(const std::string& key);
+    /// The same where the key may be missing: null then.
+    const json* take_optional(const std::string& key);
     std::string take_text(const std::string& key);
     float take_number(const std::string& key) { return as_number(take(key), key); }
     std::vector<float> take_list(const std::string& key) { return as_list(take(key), key); }

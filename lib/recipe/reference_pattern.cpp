@@ -15,9 +15,9 @@ namespace fs = std::filesystem;
 
 /// Sorted for binary search.
 const std::vector<std::string> kRawExtensions = { "3fr", "arw", "cap", "cr2", "cr3", "crw", "dcr", "dcs",
-                                                  "dng", "erf", "fff", "iiq", "k25", "kdc", "mef", "mos",
-                                                  "mrw", "nef", "nrw", "orf", "pef", "qtk", "raf", "raw",
-                                                  "rw2", "rwl", "rwz", "sr2", "srf", "srw", "x3f" };
+                                                  "dng", "erf", "fff", "gpr", "iiq", "k25", "kdc", "mef",
+                                                  "mos", "mrw", "nef", "nrw", "orf", "pef", "qtk", "raf",
+                                                  "raw", "rw2", "rwl", "rwz", "sr2", "srf", "srw", "x3f" };
 const char kGlobCharacters[] = "*?[";
 
 bool exists(const std::string& path)

@@ -11,9 +11,14 @@
 #include "reference/dng_description.h"
 #include "reference/raw_pixels.h"
 
-// The three decoders of references: LibRaw's, ours for what it can't, and the one for images that are linear already.
+// The decoders of references: LibRaw's, ours for what it can't, and the one for images that are linear already.
 
 namespace srisp {
+
+struct SampleLayout;
+
+/// Decodes a RAW file by the decoder that can. Errors: as below.
+Expected<RawImage> decode_raw(const FileBytes& file);
 
 /// Decodes a RAW file with LibRaw. `dng`: its description if it is a DNG, which then decides all but the samples; else
 /// null. Errors, without the file's name: nothing that LibRaw knows, truncated or damaged data, sensors that are not
@@ -23,6 +28,16 @@ Expected<RawImage> decode_with_libraw(const FileBytes& file, const DngDescriptio
 /// Decodes a floating point DNG (16 or 32 bits; uncompressed or Deflate) with libtiff; Debian's LibRaw can't. Errors,
 /// without the file's name: other bit depths and predictors, damaged data, NaN or infinity.
 Expected<RawImage> decode_float_dng(const FileBytes& file, const DngDescription& dng);
+
+/// Decodes a DNG whose image data are lossy JPEGs of 8 bits (`dng.lossy`; LinearRaw, or a mosaic of one sample per
+/// pixel) with libjpeg, and makes it linear by its LinearizationTable and the curves of its OpcodeList2: LibRaw ignores
+/// the one, and decodes no mosaics. Errors, without the file's name: damaged data, JPEGs of other sizes than the tags
+/// say.
+Expected<RawImage> decode_lossy_dng(const FileBytes& file, const DngDescription& dng);
+
+/// Reads plain samples without a header. Errors, without the file's name: a file of another size than the layout says,
+/// samples of more bits.
+Expected<RawImage> decode_plain_samples(const FileBytes& file, const SampleLayout& layout);
 
 /// A reference that is an image already: thumbnail (upright), facts and notes.
 struct LinearReference {

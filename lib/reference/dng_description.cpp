@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <functional>
 
+#include "reference/jpeg_data.h"
+#include "reference/tiff_raw.h"
 #include "reference/tiff_tags.h"
 
 namespace srisp {
@@ -21,9 +23,11 @@ enum : std::uint16_t {
     kPhotometric = 262,
     kStripOffsets = 273,
     kSamplesPerPixel = 277,
+    kRowsPerStrip = 278,
     kStripByteCounts = 279,
     kPlanarConfiguration = 284,
     kTileWidth = 322,
+    kTileLength = 323,
     kTileOffsets = 324,
     kTileByteCounts = 325,
     kSampleFormat = 339,
@@ -45,13 +49,20 @@ enum : std::uint16_t {
 };
 
 constexpr int kPhotometricCfa = 32803, kPhotometricLinearRaw = 34892;
-constexpr int kLargestSide = 65535; // LibRaw's limit
-constexpr int kLargestPattern = 64; // of black levels; real ones have 1, 2 or 6
+constexpr int kJpeg = 7, kLossyJpeg = 34892; // compressions
+constexpr int kLargestSide = 65535;          // LibRaw's limit
+constexpr int kLargestPattern = 64;          // of black levels; real ones have 1, 2 or 6
+
+/// One number is equal to itself, whatever it is.
+bool all_equal(const std::vector<double>& values)
+{
+    return std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end();
+}
 
 /// Builds a description step by step; the first step that can't ends it.
 class DngReader {
 public:
-    DngReader(const TiffTags& tags, std::size_t file_size) : m_tags(tags), m_file_size(file_size) {}
+    DngReader(const TiffTags& tags, const FileBytes& file) : m_tags(tags), m_file(file) {}
 
     Expected<DngDescription> read()
     {
@@ -78,10 +89,12 @@ private:
     Status read_black();
     Status read_white();
     Status check_storage();
+    Status check_order(bool tiled, const std::vector<double>& offsets, const std::vector<double>& counts) const;
+    Status find_lossy_data(bool tiled, const std::vector<double>& offsets, const std::vector<double>& counts);
     void note_what_is_ignored();
 
     const TiffTags& m_tags;
-    std::size_t m_file_size;
+    const FileBytes& m_file;
     std::size_t m_image = 0; // among the folders
     DngDescription m_dng;
 };
@@ -165,18 +178,22 @@ Status DngReader::read_colors()
 Status DngReader::read_black()
 {
     BlackLevels& black = m_dng.layout.black;
-    std::vector<double> dim = m_tags.values(image(), kBlackLevelRepeatDim);
-    if (dim.size() != 2)
-        dim = { 1, 1 };
-    black.rows = clamped(dim[0]);
-    black.columns = clamped(dim[1]);
+    const std::vector<double> dim = m_tags.values(image(), kBlackLevelRepeatDim);
+    std::vector<double> levels = m_tags.values(image(), kBlackLevel);
+    if (dim.size() == 2) {
+        black.rows = clamped(dim[0]);
+        black.columns = clamped(dim[1]);
+    } else if (m_dng.layout.channels == 1 && m_dng.layout.cfa.rows == 2 && levels.size() == 4 && !all_equal(levels)) {
+        // Small writers forget the tag. dcraw takes the first of the four for all, LibRaw none of them.
+        black.rows = black.columns = 2;
+        m_dng.notes.push_back("the DNG states four black levels without a pattern: 2 x 2 was assumed");
+    }
     if (std::min(black.rows, black.columns) < 1 || std::max(black.rows, black.columns) > kLargestPattern)
         return Error{ "DNG black level pattern of " + std::to_string(black.rows) + " x " +
                       std::to_string(black.columns) + ": 1 to " + std::to_string(kLargestPattern) + " are possible" };
-    std::vector<double> levels = m_tags.values(image(), kBlackLevel);
     const std::size_t expected =
         std::size_t(black.rows) * std::size_t(black.columns) * std::size_t(m_dng.layout.channels);
-    if (levels.size() == 1 || levels.empty()) // one level for all; none means 0
+    if (levels.empty() || all_equal(levels)) // equal ones need no pattern; none means 0
         levels.assign(expected, levels.empty() ? 0 : levels[0]);
     if (levels.size() != expected)
         return Error{ "DNG with " + std::to_string(levels.size()) + " black levels where its pattern needs " +
@@ -199,20 +216,21 @@ Status DngReader::read_white()
     std::vector<double> levels = m_tags.values(image(), kWhiteLevel);
     if (levels.empty())
         levels = { m_dng.is_float ? 1.0 : std::exp2(std::clamp(m_dng.bits, 1, 32)) - 1 };
+    const std::vector<double> table = m_tags.values(image(), kLinearizationTable);
+    if (image().find(kWhiteLevel) == nullptr && !table.empty())
+        levels = { *std::max_element(table.begin(), table.end()) };
     for (int c = 0; c < 3; ++c)
         m_dng.layout.white[std::size_t(c)] = float(levels[std::min(std::size_t(c), levels.size() - 1)]);
     return check_levels(m_dng.layout);
 }
 
-/// Whether all image data lie in the file, in a form that the decoders really handle: LibRaw reads uncompressed data in
-/// one run and the first strip only of a JPEG, whatever the tags say.
+/// Whether all image data lie in the file, in a form that one of the decoders really handles.
 Status DngReader::check_storage()
 {
-    static const std::map<int, std::string> kRefused = { { 34892, "lossy JPEG (8 bit, not sensor values)" },
-                                                         { 9, "VC-5" },
-                                                         { 52546, "JPEG XL" } };
-    if (const auto refused = kRefused.find(m_dng.compression); refused != kRefused.end())
-        return Error{ "DNG compressed by " + refused->second + ": not supported" };
+    if (m_dng.compression == 9)
+        return Error{ undecoded_vc5() };
+    if (m_dng.compression == 52546)
+        return Error{ "DNG compressed by JPEG XL: not supported; convert it to a DNG without it" };
     if (integer(kPlanarConfiguration, 1) != 1)
         return Error{ "DNG with separate colour planes: not supported" };
     const bool tiled = image().find(kTileOffsets) != nullptr;
@@ -221,17 +239,31 @@ Status DngReader::check_storage()
     if (offsets.empty() || offsets.size() != counts.size())
         return Error{ "DNG without image data" };
     for (std::size_t i = 0; i < offsets.size(); ++i)
-        if (offsets[i] + counts[i] > double(m_file_size))
+        if (offsets[i] + counts[i] > double(m_file.size))
             return Error{ "truncated: image data end at byte " + std::to_string(std::uint64_t(offsets[i] + counts[i])) +
-                          ", the file has " + std::to_string(m_file_size) };
+                          ", the file has " + std::to_string(m_file.size) };
     if (m_dng.is_float)
         return {}; // libtiff decodes these
-    if (m_dng.compression != 1 && m_dng.compression != 7)
+    const auto jpeg = jpeg_header(m_file.data.get() + std::size_t(offsets[0]), std::size_t(counts[0]));
+    if (m_dng.compression == kLossyJpeg && !jpeg)
+        return Error{ "damaged lossy DNG: its image data do not begin with a JPEG" };
+    if (m_dng.compression == kLossyJpeg && (!jpeg->lossy() || jpeg->bits != 8))
+        return Error{ "lossy DNG whose JPEGs have process " + std::to_string(jpeg->process) + " and " +
+                      std::to_string(jpeg->bits) + " bits: only lossy ones of 8 bits are supported" };
+    const bool is_jpeg = m_dng.compression == kJpeg || m_dng.compression == kLossyJpeg;
+    return is_jpeg && jpeg && jpeg->lossy() && jpeg->bits == 8 ? find_lossy_data(tiled, offsets, counts)
+                                                               : check_order(tiled, offsets, counts);
+}
+
+/// LibRaw reads uncompressed data in one run and the first strip only of a JPEG, whatever the tags say.
+Status DngReader::check_order(bool tiled, const std::vector<double>& offsets, const std::vector<double>& counts) const
+{
+    if (m_dng.compression != 1 && m_dng.compression != kJpeg)
         return Error{ "DNG of integers with compression " + std::to_string(m_dng.compression) +
                       ": LibRaw does not decode it" };
-    if (m_dng.compression == 7 && !tiled && offsets.size() != 1)
+    if (m_dng.compression == kJpeg && !tiled && offsets.size() != 1)
         return Error{ "DNG with several JPEG strips: LibRaw does not decode it" };
-    if (m_dng.compression == 7)
+    if (m_dng.compression == kJpeg)
         return {};
     if (tiled && integer(kTileWidth, 0) != m_dng.stored_width)
         return Error{ "uncompressed DNG in tiles: LibRaw does not decode it" };
@@ -241,16 +273,41 @@ Status DngReader::check_storage()
     return {};
 }
 
+Status DngReader::find_lossy_data(bool tiled, const std::vector<double>& offsets, const std::vector<double>& counts)
+{
+    LossyDngData data;
+    data.block_width = tiled ? integer(kTileWidth, 0) : m_dng.stored_width;
+    data.block_height =
+        tiled ? integer(kTileLength, 0) : std::min(integer(kRowsPerStrip, m_dng.stored_height), m_dng.stored_height);
+    const std::string size = std::to_string(data.block_width) + " x " + std::to_string(data.block_height);
+    if (std::min(data.block_width, data.block_height) < 1 ||
+        std::max(data.block_width, data.block_height) > kLargestSide)
+        return Error{ "lossy DNG with tiles or strips of " + size + " pixels: from 1 to " +
+                      std::to_string(kLargestSide) + " a side are possible" };
+    const std::size_t columns = std::size_t((m_dng.stored_width - 1) / data.block_width + 1);
+    const std::size_t rows = std::size_t((m_dng.stored_height - 1) / data.block_height + 1);
+    if (offsets.size() < columns * rows)
+        return Error{ "lossy DNG with " + std::to_string(offsets.size()) + " tiles or strips of " + size +
+                      " pixels where it needs " + std::to_string(columns * rows) };
+    for (std::size_t i = 0; i < columns * rows; ++i)
+        data.blocks.push_back({ std::size_t(offsets[i]), std::size_t(counts[i]) });
+    for (const double value : m_tags.values(image(), kLinearizationTable))
+        data.linearization.push_back(std::uint16_t(std::clamp(value, 0.0, 65535.0)));
+    data.opcodes = m_tags.bytes(image(), kOpcodeList2);
+    m_dng.lossy = std::move(data);
+    return {};
+}
+
 void DngReader::note_what_is_ignored()
 {
     for (const std::uint16_t list : { kOpcodeList1, kOpcodeList2, kOpcodeList3 })
-        if (image().find(list))
+        if (image().find(list) && !(m_dng.lossy && list == kOpcodeList2)) // a lossy one's decoder looks into it
             m_dng.notes.push_back("OpcodeList" + std::to_string(list == kOpcodeList3 ? 3 : list - kOpcodeList1 + 1) +
                                   " of the DNG (gain maps and other corrections) was ignored");
     if (image().find(kBlackLevel) == nullptr)
         m_dng.notes.push_back("the DNG states no black level: 0 was assumed");
     if (image().find(kWhiteLevel) == nullptr)
-        m_dng.notes.push_back("the DNG states no white level: its type's largest value was assumed");
+        m_dng.notes.push_back("the DNG states no white level: the largest value that it can hold was assumed");
 }
 
 } // namespace
@@ -260,7 +317,7 @@ Expected<std::optional<DngDescription>> describe_dng(const FileBytes& file)
     const TiffTags tags(file.data.get(), file.size);
     if (tags.folders().empty() || tags.folders()[0].find(kDngVersion) == nullptr)
         return std::optional<DngDescription>();
-    auto description = DngReader(tags, file.size).read();
+    auto description = DngReader(tags, file).read();
     if (!description)
         return description.error();
     return std::optional<DngDescription>(std::move(*description));

@@ -16,6 +16,17 @@ namespace srisp {
 class TiffTags;
 struct TiffFolder;
 
+/// The image data of a DNG whose strips or tiles are lossy JPEGs of 8 bits, and how they become linear.
+struct LossyDngData {
+    struct Block {
+        std::size_t offset, size; ///< in the file, and within it
+    };
+    int block_width = 0, block_height = 0;
+    std::vector<Block> blocks;                ///< row by row; as many as cover the stored image
+    std::vector<std::uint16_t> linearization; ///< LinearizationTable; may be empty
+    std::string opcodes;                      ///< bytes of OpcodeList2; may be empty
+};
+
 /// What a DNG's own tags say of its main image: geometry, levels, colours, camera. LibRaw 0.20 rounds black levels to
 /// integers, averages BlackLevelDeltaH/V and crops odd active areas, so we follow the tags and leave it the
 /// decompression.
@@ -24,9 +35,10 @@ struct DngDescription {
     int left = 0, top = 0;                   ///< of the active area
     int samples = 1, bits = 16;
     bool is_float = false;
-    int compression = 1;             ///< TIFF code: 1 none, 7 lossless JPEG, 8 Deflate, 34892 lossy JPEG
-    std::uint32_t folder_offset = 0; ///< of the main image's tags in the file
-    RawPixels layout;                ///< width, height, channels, cfa, black, white; no samples yet
+    int compression = 1;               ///< TIFF code: 1 none, 7 JPEG (mostly lossless), 8 Deflate, 34892 lossy JPEG
+    std::uint32_t folder_offset = 0;   ///< of the main image's tags in the file
+    std::optional<LossyDngData> lossy; ///< where the image data are lossy JPEGs of 8 bits
+    RawPixels layout;                  ///< width, height, channels, cfa, black, white; no samples yet
     CameraFacts facts;
     std::vector<std::string> notes;
 };

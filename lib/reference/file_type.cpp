@@ -24,31 +24,78 @@ const std::vector<Magic>& magics()
 {
     using K = FileKind;
     static const std::vector<Magic> kMagics = {
-        { 0, "\x76\x2f\x31\x01", K::exr, "OpenEXR" },       { 0, "FOVb", K::foveon, "X3F" },
-        { 0, bytes("II*\0", 4), K::tiff, "TIFF" },          { 0, bytes("MM\0*", 4), K::tiff, "TIFF" },
-        { 0, bytes("II+\0", 4), K::tiff, "BigTIFF" },       { 0, bytes("MM\0+", 4), K::tiff, "BigTIFF" },
-        { 0, "\xff\xd8\xff", K::display_encoded, "JPEG" },  { 0, "\x89PNG", K::display_encoded, "PNG" },
-        { 0, "GIF8", K::display_encoded, "GIF" },           { 0, "BM", K::display_encoded, "BMP" },
-        { 8, "WEBP", K::display_encoded, "WebP" },          { 4, "ftyphei", K::display_encoded, "HEIC" },
-        { 4, "ftyphev", K::display_encoded, "HEIC" },       { 4, "ftypmif1", K::display_encoded, "HEIF" },
-        { 4, "ftypmsf1", K::display_encoded, "HEIF" },      { 4, "ftypavif", K::display_encoded, "AVIF" },
-        { 4, "jP  \r\n", K::display_encoded, "JPEG 2000" }, { 0, "\xff\x4f\xff\x51", K::display_encoded, "JPEG 2000" },
-        { 4, "JXL \r\n", K::display_encoded, "JPEG XL" },   { 0, "\xff\x0a", K::display_encoded, "JPEG XL" },
-        { 0, "8BPS", K::display_encoded, "Photoshop" },     { 0, "#?RADIANCE", K::display_encoded, "Radiance HDR" },
-        { 0, "SDPX", K::display_encoded, "DPX" },           { 0, "XPDS", K::display_encoded, "DPX" },
-        { 0, "P5\n", K::display_encoded, "PGM" },           { 0, "P6\n", K::display_encoded, "PPM" },
+        { 0, "\x76\x2f\x31\x01", K::exr, "OpenEXR" },
+        { 0, "FOVb", K::foveon, "X3F" },
+        { 0, bytes("II*\0", 4), K::tiff, "TIFF" },
+        { 0, bytes("MM\0*", 4), K::tiff, "TIFF" },
+        { 0, bytes("II+\0", 4), K::tiff, "BigTIFF" },
+        { 0, bytes("MM\0+", 4), K::tiff, "BigTIFF" },
+        { 0, "\xff\xd8\xff", K::display_encoded, "JPEG" },
+        { 0, "\x89PNG", K::display_encoded, "PNG" },
+        { 0, "GIF8", K::display_encoded, "GIF" },
+        { 0, "BM", K::display_encoded, "BMP" },
+        { 8, "WEBP", K::display_encoded, "WebP" },
+        { 4, "ftyphei", K::display_encoded, "HEIC" },
+        { 4, "ftyphev", K::display_encoded, "HEIC" },
+        { 4, "ftypmif1", K::display_encoded, "HEIF" },
+        { 4, "ftypmsf1", K::display_encoded, "HEIF" },
+        { 4, "ftypavif", K::display_encoded, "AVIF" },
+        { 4, "jP  \r\n", K::display_encoded, "JPEG 2000" },
+        { 0, "\xff\x4f\xff\x51", K::display_encoded, "JPEG 2000" },
+        { 4, "JXL \r\n", K::display_encoded, "JPEG XL" },
+        { 0, "\xff\x0a", K::display_encoded, "JPEG XL" },
+        { 0, "8BPS", K::display_encoded, "Photoshop" },
+        { 0, "#?RADIANCE", K::display_encoded, "Radiance HDR" },
+        { 0, "SDPX", K::display_encoded, "DPX" },
+        { 0, "XPDS", K::display_encoded, "DPX" },
+        { 0, "P5\n", K::display_encoded, "PGM" },
+        { 0, "P6\n", K::display_encoded, "PPM" },
+        { 0, "II\xbc\x01", K::display_encoded, "JPEG XR" },
+        { 0, bytes("IIU\0", 4), K::raw, "Panasonic" },
+        { 0, "IIRO", K::raw, "Olympus" },
+        { 0, "IIRS", K::raw, "Olympus" },
+        { 0, "MMOR", K::raw, "Olympus" },
+        { 6, "HEAPCCDR", K::raw, "Canon CRW" },
+        { 4, "ftypcrx ", K::raw, "Canon CR3" },
+        { 0, "FUJIFILM", K::raw, "Fujifilm" },
+        { 0, bytes("\0MRM", 4), K::raw, "Minolta" },
+        { 5, "waR", K::raw, "Phase One" },
+        { 4, "Raw", K::raw, "Phase One" },
+        { 0, "ARRI", K::raw, "ARRI" },
+        { 4, "RED1", K::raw, "RED" },
+        { 0, bytes("CI,\0", 4), K::raw, "Cine" },
+        { 0, "PWAD", K::raw, "Sinar" },
+        { 0, "DSC-Image", K::raw, "Rollei" },
+        { 0, "NOKIARAW", K::raw, "Nokia" },
+        { 0, bytes("\0\1\0\1\0@", 6), K::raw, "Nokia" },
+        { 25, "ARECOYK", K::raw, "Contax" },
+        { 0, bytes("PXN\0", 4), K::raw, "Logitech" },
+        { 0, bytes("qktk\0", 5), K::raw, "QuickTake" },
+        { 0, bytes("qktn\0", 5), K::raw, "QuickTake" },
     };
     return kMagics;
 }
 
+/// Cameras of SMaL begin with a version and the file's size.
+bool is_smal(const std::string& head, std::uint64_t file_size)
+{
+    if (head.size() < 9 || file_size == 0)
+        return false;
+    const std::size_t at = head[2] == 6 ? 5 : 3;
+    std::uint64_t size = 0;
+    for (std::size_t i = 4; i-- > 0;)
+        size = size << 8 | static_cast<unsigned char>(head[at + i]);
+    return size == file_size;
+}
+
 } // namespace
 
-FileType file_type(const std::string& head)
+FileType file_type(const std::string& head, std::uint64_t file_size)
 {
     for (const Magic& magic : magics())
         if (head.compare(std::min(magic.offset, head.size()), magic.bytes.size(), magic.bytes) == 0)
             return { magic.kind, magic.name };
-    return { FileKind::raw, "" };
+    return { is_smal(head, file_size) ? FileKind::raw : FileKind::headerless, "" };
 }
 
 } // namespace srisp

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace srisp {
 
-/// What may be in a reference file, judged by its first bytes.
-enum class FileKind { raw, tiff, exr, display_encoded, foveon };
+/// What may be in a reference file, judged by its first bytes. `headerless`: nothing known, so plain samples at best.
+enum class FileKind { raw, tiff, exr, display_encoded, foveon, headerless };
 
 struct FileType {
     FileKind kind;
@@ -17,7 +18,8 @@ struct FileType {
 /// How many bytes `file_type` wants to see.
 constexpr std::size_t kHeadBytes = 64;
 
-/// Judges by magic numbers alone. Whatever is not known is `raw`: LibRaw decides then.
-FileType file_type(const std::string& head);
+/// Judges by magic numbers alone. `raw` are those by which LibRaw knows a camera's file: where it finds none, it
+/// guesses a camera by the file's size. `file_size`: one camera's header repeats it; 0: not known.
+FileType file_type(const std::string& head, std::uint64_t file_size = 0);
 
 } // namespace srisp

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "reference/raw_stream.h"
+#include "reference/tiff_raw.h"
 
 namespace srisp {
 
@@ -74,8 +75,20 @@ BlackLevels black_levels(LibRaw& raw, const CfaPattern& cfa)
     return black;
 }
 
+/// Why LibRaw did not open it, as far as it says.
+std::string unopened(int code, const FileBytes& file, const DngDescription* dng)
+{
+    if (code != LIBRAW_FILE_UNSUPPORTED && code != LIBRAW_DATA_ERROR && code != LIBRAW_IO_ERROR)
+        return std::string("LibRaw can't open it: ") + LibRaw::strerror(code);
+    const std::string libraw = "LibRaw " + std::string(LibRaw::version());
+    if (const std::string name = dng ? "" : tiff_raw_name(file); !name.empty())
+        return "is " + name + " that " + libraw +
+               " does not decode, or damaged or truncated; if other programs read it, convert it to DNG";
+    return "is not a RAW file that " + libraw + " knows, or damaged or truncated";
+}
+
 /// Opens and unpacks.
-Status unpack(LibRaw& raw, RawStream& stream, const FileBytes& file)
+Status unpack(LibRaw& raw, RawStream& stream, const FileBytes& file, const DngDescription* dng)
 {
     // LibRaw would write its complaints to stderr.
     raw.set_dataerror_handler([](void*, const char*, int) {}, nullptr);
@@ -83,10 +96,7 @@ Status unpack(LibRaw& raw, RawStream& stream, const FileBytes& file)
     raw.imgdata.params.max_raw_memory_mb = kMostMemoryMb;
     raw.imgdata.params.raw_processing_options |= LIBRAW_PROCESSING_SRAW_NO_RGB | LIBRAW_PROCESSING_SRAW_NO_INTERPOLATE;
     if (const int code = raw.open_datastream(&stream); code != LIBRAW_SUCCESS)
-        return Error{ code == LIBRAW_FILE_UNSUPPORTED || code == LIBRAW_DATA_ERROR || code == LIBRAW_IO_ERROR
-                          ? "is not a RAW file that LibRaw " + std::string(LibRaw::version()) +
-                                " knows, or damaged or truncated"
-                          : std::string("LibRaw can't open it: ") + LibRaw::strerror(code) };
+        return Error{ unopened(code, file, dng) };
     if (Status status = check_sensor(raw); !status && raw.imgdata.idata.dng_version == 0)
         return status;
     stream.end_is_error();
@@ -208,8 +218,10 @@ Expected<RawImage> decode_with_libraw(const FileBytes& file, const DngDescriptio
         RawStream stream;
         LibRaw raw{ LIBRAW_OPIONS_NO_MEMERR_CALLBACK | LIBRAW_OPIONS_NO_DATAERR_CALLBACK };
     };
+    if (Status status = dng ? Status() : check_tiff_raw(file); !status)
+        return status.error();
     const auto decoder = std::make_shared<Decoder>(file);
-    if (Status status = unpack(decoder->raw, decoder->stream, file); !status)
+    if (Status status = unpack(decoder->raw, decoder->stream, file, dng); !status)
         return status.error();
     RawImage image;
     if (Status status = dng ? adopt_dng(decoder->raw, *dng, image) : describe_pixels(decoder->raw, image); !status)

@@ -5,15 +5,17 @@
 #include <cstdio>
 #include <filesystem>
 
+#include <libraw/libraw_version.h>
 #include <srisp/thumbnail.h>
 
 #include "base/file_bytes.h"
 #include "base/hashes.h"
 #include "recipe/reference_pattern.h"
 #include "reference/decoders.h"
-#include "reference/dng_description.h"
 #include "reference/file_type.h"
 #include "reference/raw_pixels.h"
+#include "reference/sample_layout.h"
+#include "reference/tiff_raw.h"
 
 namespace srisp {
 
@@ -37,26 +39,37 @@ Status check_brightness(const Thumbnail& thumbnail)
     return Error{ text };
 }
 
+Reference reference_of(const RawImage& image, const std::string& hash)
+{
+    return { "", "", hash, oriented(raw_thumbnail(image.pixels), image.facts.orientation), image.facts, image.notes };
+}
+
 /// From a RAW file; all but name and path.
+Expected<Reference> load_raw(const FileBytes& file)
+{
+    const auto image = decode_raw(file);
+    if (!image)
+        return image.error();
+    return reference_of(*image, hash_of_bytes(file.data.get(), file.size));
+}
+
 Expected<Reference> load_raw(const std::string& path)
+{
+    const auto file = read_whole_file(path);
+    return file ? load_raw(*file) : file.error();
+}
+
+/// The same from plain samples that a file beside them describes.
+Expected<Reference> load_samples(const std::string& path, const SampleLayout& layout)
 {
     const auto file = read_whole_file(path);
     if (!file)
         return file.error();
-    const auto dng = describe_dng(*file);
-    if (!dng)
-        return dng.error();
-    const DngDescription* description = *dng ? &**dng : nullptr;
-    const auto image = description && description->is_float ? decode_float_dng(*file, *description)
-                                                            : decode_with_libraw(*file, description);
+    const auto image = decode_plain_samples(*file, layout);
     if (!image)
         return image.error();
-    return Reference{ "",
-                      "",
-                      hash_of_bytes(file->data.get(), file->size),
-                      oriented(raw_thumbnail(image->pixels), image->facts.orientation),
-                      image->facts,
-                      image->notes };
+    const std::string both = hash_of_bytes(file->data.get(), file->size) + layout.text;
+    return reference_of(*image, hash_of_bytes(both.data(), both.size()));
 }
 
 /// The same from an EXR, or from a TIFF that srisp wrote. `format`: OpenImageIO's name.
@@ -71,6 +84,34 @@ Expected<Reference> load_linear(const std::string& path, const std::string& form
     return Reference{ "", "", *hash, image->thumbnail, image->facts, image->notes };
 }
 
+/// From a TIFF without the extension of a RAW file.
+Expected<Reference> load_tiff(const std::string& path)
+{
+    // A TIFF of ours is no RAW whatever LibRaw thinks.
+    auto linear = load_linear(path, "tiff");
+    if (linear)
+        return linear;
+    const auto file = read_whole_file(path);
+    if (!file)
+        return file.error();
+    auto raw = load_raw(*file);
+    return raw || !tiff_raw_name(*file).empty() ? raw : linear;
+}
+
+/// From a file in which neither we nor LibRaw know a header.
+Expected<Reference> load_headerless(const std::string& path)
+{
+    const auto layout = find_sample_layout(path);
+    if (!layout)
+        return layout.error();
+    if (*layout)
+        return load_samples(path, **layout);
+    return Error{ "is not a RAW file that LibRaw " + std::string(LIBRAW_VERSION_STR) +
+                  " knows by its first bytes. If it holds plain samples, describe them in '" + path +
+                  ".json': {\"width\": 4032, \"height\": 3024, \"cfa\": \"RGGB\", \"bits\": 10, \"black\": 64, "
+                  "\"white\": 1023}" };
+}
+
 Expected<Reference> load_by_type(const FileType& type, const std::string& path)
 {
     switch (type.kind) {
@@ -83,21 +124,27 @@ Expected<Reference> load_by_type(const FileType& type, const std::string& path)
         return Error{ "Foveon sensor (three layers, no mosaic): not supported" };
     case FileKind::exr:
         return load_linear(path, "openexr");
-    case FileKind::tiff: {
-        // Most RAW formats are TIFF inside, some (Canon 1D) even by name; a TIFF of ours is no RAW whatever LibRaw
-        // thinks.
-        if (has_raw_extension(path))
-            break;
-        auto linear = load_linear(path, "tiff");
-        if (linear)
-            return linear;
-        auto raw = load_raw(path);
-        return raw ? raw : linear;
-    }
+    case FileKind::tiff:
+        // Most RAW formats are TIFF inside, some (Canon 1D) even by name.
+        return has_raw_extension(path) ? load_raw(path) : load_tiff(path);
+    case FileKind::headerless:
+        return load_headerless(path);
     case FileKind::raw:
         break;
     }
     return load_raw(path);
+}
+
+/// The file's type. Plain samples may begin with the two bytes of a BMP: what is called RAW and described is no photo.
+FileType type_of(const std::string& head, const std::string& path)
+{
+    std::error_code unknown;
+    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+    const FileType type = file_type(head, unknown ? 0 : size);
+    const std::vector<std::string> layouts = layout_paths(path);
+    const bool described = type.kind == FileKind::display_encoded && has_raw_extension(path) &&
+                           std::filesystem::exists(layouts.front(), unknown);
+    return described ? FileType{ FileKind::headerless, "" } : type;
 }
 
 } // namespace
@@ -109,7 +156,7 @@ Expected<std::shared_ptr<const Reference>> load_reference(const std::string& pat
         const auto head = read_head(path, kHeadBytes);
         if (!head)
             return fail(head.error().message);
-        auto reference = load_by_type(file_type(*head), path);
+        auto reference = load_by_type(type_of(*head, path), path);
         if (!reference)
             return fail(reference.error().message);
         if (Status status = check_brightness(reference->thumbnail); !status)

@@ -2,8 +2,17 @@
 #include <srisp/reference.h>
 
 #include "base/recently_kept.h"
+#include "reference/sample_layout.h"
 
 namespace srisp {
+
+std::string reference_state(const std::string& path)
+{
+    std::string state = file_state(path);
+    for (const std::string& layout : layout_paths(path))
+        state += "\n" + file_state(layout);
+    return state;
+}
 
 Expected<std::shared_ptr<const Reference>> load_reference_cached(const std::string& path)
 {
@@ -11,7 +20,7 @@ Expected<std::shared_ptr<const Reference>> load_reference_cached(const std::stri
     // Never destroyed: other threads of the host may still read while statics end.
     static auto& kept = *new RecentlyKept<std::shared_ptr<const Reference>>(kMostKept);
     try {
-        return kept.get(file_state(path), [&] { return load_reference(path); });
+        return kept.get(reference_state(path), [&] { return load_reference(path); });
     } catch (const std::exception& failed) {
         return Error{ "reference '" + path + "': " + failed.what() };
     }

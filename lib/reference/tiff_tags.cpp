@@ -134,6 +134,14 @@ double TiffTags::value(const TiffFolder& folder, std::uint16_t tag, double other
     return found ? number(*found, 0) : otherwise;
 }
 
+std::string TiffTags::bytes(const TiffFolder& folder, std::uint16_t tag) const
+{
+    const TiffTag* found = folder.find(tag);
+    if (!found || (found->type != 1 && found->type != 7))
+        return {};
+    return { reinterpret_cast<const char*>(m_data + found->offset), found->count };
+}
+
 std::string TiffTags::text(const TiffFolder& folder, std::uint16_t tag) const
 {
     const TiffTag* found = folder.find(tag);

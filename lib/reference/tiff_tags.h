@@ -40,6 +40,8 @@ public:
     double value(const TiffFolder& folder, std::uint16_t tag, double otherwise) const;
     /// An ASCII tag up to its first NUL, without spaces at its end.
     std::string text(const TiffFolder& folder, std::uint16_t tag) const;
+    /// The bytes of a tag of type BYTE or UNDEFINED; empty if it is missing or of another type.
+    std::string bytes(const TiffFolder& folder, std::uint16_t tag) const;
 
 private:
     std::uint64_t integer(std::size_t offset, int bytes) const;

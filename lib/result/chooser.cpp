@@ -6,7 +6,6 @@
 #include <srisp/metadata.h>
 #include <srisp/select.h>
 
-#include "base/recently_kept.h"
 #include "photo/photo_reader.h"
 
 namespace srisp {
@@ -57,7 +56,7 @@ std::string Chooser::key(const PixelSource& source, int subimage) const
 {
     return source.key() + "\n" + std::to_string(subimage) + "\n" + std::to_string(static_cast<int>(m_recipe.input)) +
            "\n" + m_model->hash() + "\n" + (m_recipe.parameters ? to_json(*m_recipe.parameters, -1) : "") + "\n" +
-           file_state(m_reference);
+           reference_state(m_reference);
 }
 
 Expected<ChoicePtr> Chooser::known(const PixelSource& source, int subimage, const OIIO::ImageSpec& stored) const
@@ -113,7 +112,7 @@ Expected<ChoicePtr> Chooser::select_new(PixelSource& source, int subimage, const
     const auto thumbnail = photo.thumbnail();
     if (!thumbnail)
         return thumbnail.error();
-    auto parameters = select(*m_model, *thumbnail, (*reference)->thumbnail);
+    auto parameters = select(*m_model, *thumbnail, (*reference)->thumbnail, &choice->notes);
     if (!parameters)
         return Error{ source.name() + ": " + parameters.error().message };
     choice->parameters = *parameters;

@@ -25,14 +25,15 @@ static Status check_thumbnail(const Thumbnail& thumbnail, const char* which)
                   "), must be within 0 … 1" };
 }
 
-Expected<Parameters> select(const Model& model, const Thumbnail& source, const Thumbnail& reference)
+Expected<Parameters> select(const Model& model, const Thumbnail& source, const Thumbnail& reference,
+                            std::vector<std::string>* notes)
 {
     if (Status status = check_thumbnail(source, "source"); !status)
         return status.error();
     if (Status status = check_thumbnail(reference, "reference"); !status)
         return status.error();
     try {
-        Parameters parameters = select_parameters(model_data(model), source, reference, nullptr);
+        Parameters parameters = select_parameters(model_data(model), source, reference, notes, nullptr);
         parameters.model_name = model.name();
         parameters.model_hash = model.hash();
         if (Status status = check_parameters(parameters, model); !status)

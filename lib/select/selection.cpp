@@ -9,6 +9,7 @@
 #include "features/image_features.h"
 #include "features/match_features.h"
 #include "select/layers.h"
+#include "select/trained_range.h"
 
 namespace srisp {
 
@@ -48,8 +49,9 @@ void add_to_input(StridedInput& input, int first_channel, Planes image, Scale sc
 /// Chooses block after block on the running thumbnail.
 class Selection {
 public:
-    Selection(const ModelData& model, const Thumbnail& source, const Thumbnail& reference, SelectionTrace* trace)
-        : m_model(model), m_running(planar(source)), m_reference(planar(reference)), m_trace(trace)
+    Selection(const ModelData& model, const Thumbnail& source, const Thumbnail& reference,
+              std::vector<std::string>* notes, SelectionTrace* trace)
+        : m_model(model), m_running(planar(source)), m_reference(planar(reference)), m_notes(notes), m_trace(trace)
     {
     }
 
@@ -256,6 +258,7 @@ private:
             for (int i = 0; i < 2; ++i)
                 mixed[i] += m_parameters.white_balance_weights[k] * m_model.white_balance_atoms[k][i];
         m_parameters.white_balance = product(mixed);
+        keep_in_trained_range(m_parameters.white_balance, m_notes);
         apply(m_parameters.white_balance, m_running.planes());
         note(&SelectionTrace::after_white_balance);
     }
@@ -273,6 +276,7 @@ private:
         for (int k = 0; k < m_model.dictionary_size; ++k)
             mixed += m_parameters.gain_weights[k] * m_model.gain_atoms[k];
         m_parameters.gain = mixed * base;
+        keep_in_trained_range(m_parameters.gain, m_notes);
         if (!m_trace)
             return;
         apply(m_parameters.gain, m_running.planes());
@@ -282,6 +286,7 @@ private:
 
     const ModelData& m_model;
     PlanarThumbnail m_running, m_reference;
+    std::vector<std::string>* m_notes;
     SelectionTrace* m_trace;
     std::array<float, 12> m_source_statistics{}, m_reference_statistics{};
     std::array<float, kQuantileFeatures> m_source_quantiles{}, m_reference_quantiles{};
@@ -294,9 +299,9 @@ private:
 } // namespace
 
 Parameters select_parameters(const ModelData& model, const Thumbnail& source, const Thumbnail& reference,
-                             SelectionTrace* trace)
+                             std::vector<std::string>* notes, SelectionTrace* trace)
 {
-    return Selection(model, source, reference, trace).run();
+    return Selection(model, source, reference, notes, trace).run();
 }
 
 } // namespace srisp

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include <srisp/image.h>
@@ -28,8 +29,8 @@ struct SelectionTrace {
     PlanarThumbnail after_tone, after_gamma, after_color, after_white_balance, after_gain;
 };
 
-/// `select` without its checks. Fills `trace` where it is given.
+/// `select` without its checks. Fills `notes` and `trace` where they are given.
 Parameters select_parameters(const ModelData& model, const Thumbnail& source, const Thumbnail& reference,
-                             SelectionTrace* trace);
+                             std::vector<std::string>* notes, SelectionTrace* trace);
 
 } // namespace srisp

@@ -11,7 +11,6 @@
 #include "base/file_bytes.h"
 #include "lib/reference/synthetic_dng.h"
 #include "reference/decoders.h"
-#include "reference/dng_description.h"
 #include "reference/raw_pixels.h"
 
 using namespace srisp;
@@ -57,12 +56,7 @@ bool decode(const std::string& bytes, int& decoded)
     std::shared_ptr<unsigned char[]> copy(new unsigned char[bytes.size()]);
     std::copy(bytes.begin(), bytes.end(), copy.get());
     const FileBytes file{ copy, bytes.size() };
-    const auto dng = describe_dng(file);
-    if (!dng)
-        return !dng.error().message.empty();
-    const DngDescription* description = *dng ? &**dng : nullptr;
-    const auto image = description && description->is_float ? decode_float_dng(file, *description)
-                                                            : decode_with_libraw(file, description);
+    const auto image = decode_raw(file);
     if (!image)
         return !image.error().message.empty();
     ++decoded;

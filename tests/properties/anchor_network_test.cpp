@@ -196,7 +196,7 @@ TEST_CASE("the anchor's network corrects the golden model's gains, and no white-
     source.rgb = values->tensors.at("thumb.source").values;
     reference.rgb = values->tensors.at("thumb.reference").values;
     SelectionTrace trace;
-    const Parameters parameters = select_parameters(**model, source, reference, &trace);
+    const Parameters parameters = select_parameters(**model, source, reference, nullptr, &trace);
     check_near(trace.base_gain, "base_gain");
     check_near(parameters.white_balance, "white_balance");
     check_near(std::array<float, 1>{ parameters.gain }, "gain");

@@ -73,8 +73,8 @@ void check_mixed_kernels(const Golden& golden, const Parameters& parameters)
 void check_selection(const Golden& golden)
 {
     SelectionTrace trace;
-    const Parameters p =
-        select_parameters(model_data(*golden.model), golden.thumbnail("source"), golden.thumbnail("reference"), &trace);
+    const Parameters p = select_parameters(model_data(*golden.model), golden.thumbnail("source"),
+                                           golden.thumbnail("reference"), nullptr, &trace);
     if (golden.file.values.count("source_statistics")) {
         check_near(trace.source_statistics, golden, "source_statistics");
         check_near(trace.reference_statistics, golden, "reference_statistics");

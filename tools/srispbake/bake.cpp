@@ -171,9 +171,8 @@ std::vector<std::string> notes_of(const BakeChoice& choice, const BakeOptions& o
     if (choice.photo)
         for (const std::string& note : choice.photo->notes)
             notes.push_back("photo '" + options.source + "': " + note);
-    if (choice.reference)
-        for (const std::string& note : choice.reference->notes)
-            notes.push_back("reference '" + options.reference + "': " + note);
+    for (const std::string& note : choice.notes)
+        notes.push_back("reference '" + options.reference + "': " + note);
     return notes;
 }
 

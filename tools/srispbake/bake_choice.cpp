@@ -109,9 +109,10 @@ Parameters given_parameters(const std::string& path, const Model& model)
     return parameters;
 }
 
-Parameters chosen_parameters(const Model& model, const Thumbnail& photo, const Reference& reference)
+Parameters chosen_parameters(const Model& model, const Thumbnail& photo, const Reference& reference,
+                             std::vector<std::string>* notes)
 {
-    Parameters parameters = require(select(model, photo, reference.thumbnail));
+    Parameters parameters = require(select(model, photo, reference.thumbnail, notes));
     parameters.reference_name = reference.name;
     parameters.reference_hash = reference.hash;
     return parameters;
@@ -135,6 +136,7 @@ BakeChoice make_choice(const BakeOptions& options)
     check_interrupt();
     if (!choice.reference)
         return choice;
+    choice.notes = choice.reference->notes;
     if (!choice.photo) {
         choice.photo = sample_of_thumbnail(neutral_rendition(*choice.reference), "the reference's neutral rendition");
         choice.photo_is_rendition = true;
@@ -143,11 +145,11 @@ BakeChoice make_choice(const BakeOptions& options)
         const auto model = Model::load(kFullModel);
         if (!model || (*model)->kernel_size() == 1)
             return {};
-        return Chosen{ *model, chosen_parameters(**model, choice.photo->thumbnail, *choice.reference) };
+        return Chosen{ *model, chosen_parameters(**model, choice.photo->thumbnail, *choice.reference, nullptr) };
     });
     if (options.parameters.empty())
         choice.pointwise.parameters =
-            chosen_parameters(*choice.pointwise.model, choice.photo->thumbnail, *choice.reference);
+            chosen_parameters(*choice.pointwise.model, choice.photo->thumbnail, *choice.reference, &choice.notes);
     choice.full = full.get();
     return choice;
 }

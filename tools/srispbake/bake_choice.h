@@ -51,6 +51,7 @@ struct BakeChoice {
     std::optional<PhotoSample> photo;           ///< likewise, unless --source is there
     bool photo_is_rendition = false;            ///< the reference's own neutral rendition stands in
     std::optional<Chosen> full;                 ///< `default` with the same photo and reference
+    std::vector<std::string> notes;             ///< about the reference and what was chosen
 };
 
 /// Loads and chooses what the options ask for. Throws Failure.

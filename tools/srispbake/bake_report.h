@@ -21,7 +21,7 @@ struct BakeReport {
 struct BakeSummary {
     std::string photo, full_model; ///< what errors were measured on; empty where there was none
     std::vector<BakeReport> files;
-    std::vector<std::string> notes; ///< what was assumed or changed in photo and reference
+    std::vector<std::string> notes; ///< what was assumed or changed in photo, reference and choice
 };
 
 /// The errors in words: one sentence for the pointwise pipeline and, where it was measured, one for the full one.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <OpenImageIO/imageio.h>
+#include <srisp/reference.h>
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
@@ -21,7 +22,7 @@ namespace {
 /// Tells when one of some files was changed, replaced, removed or came back.
 class FileWatch {
 public:
-    explicit FileWatch(std::vector<std::string> paths);
+    FileWatch(std::string reference, std::vector<std::string> others);
 
     /// True once for each change, when the files were the same for two calls in a row: what is still being written is
     /// waited for.
@@ -30,19 +31,20 @@ public:
 private:
     std::string state() const;
 
-    std::vector<std::string> m_paths;
+    std::string m_reference;
+    std::vector<std::string> m_others;
     std::string m_reported, m_last;
 };
 
-FileWatch::FileWatch(std::vector<std::string> paths)
-    : m_paths(std::move(paths)), m_reported(state()), m_last(m_reported)
+FileWatch::FileWatch(std::string reference, std::vector<std::string> others)
+    : m_reference(std::move(reference)), m_others(std::move(others)), m_reported(state()), m_last(m_reported)
 {
 }
 
 std::string FileWatch::state() const
 {
-    std::string text;
-    for (const std::string& path : m_paths)
+    std::string text = m_reference.empty() ? "" : reference_state(m_reference) + "\n";
+    for (const std::string& path : m_others)
         text += file_state(path) + "\n";
     return text;
 }
@@ -75,12 +77,12 @@ void bake_once(const BakeOptions& options)
 [[noreturn]] void watch(const BakeOptions& options)
 {
     std::vector<std::string> paths;
-    for (const std::string& path : { options.reference, options.source, options.parameters })
+    for (const std::string& path : { options.source, options.parameters })
         if (!path.empty())
             paths.push_back(path);
     if (const auto model = Model::load(options.model))
         paths.push_back((*model)->path());
-    FileWatch files(paths);
+    FileWatch files(options.reference, paths);
     for (bool due = true;; due = files.changed()) {
         try {
             if (due)

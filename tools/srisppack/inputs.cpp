@@ -62,9 +62,10 @@ Kind kind_of(const std::string& path, Role role)
     if (has_raw_extension(path))
         return role == Role::photos ? Kind::other : Kind::raw;
     const auto head = read_head(path, kHeadBytes);
-    const FileKind kind = head ? file_type(*head).kind : FileKind::raw;
+    const FileKind kind = head ? file_type(*head).kind : FileKind::headerless;
     // A file that is damaged from its first byte on is still meant to be the image that it is called.
-    const bool image = kind == FileKind::raw || kind == FileKind::foveon ? has_image_extension(path) : true;
+    const bool unnamed = kind == FileKind::raw || kind == FileKind::foveon || kind == FileKind::headerless;
+    const bool image = !unnamed || has_image_extension(path);
     const bool linear = kind == FileKind::exr || kind == FileKind::tiff;
     if (role == Role::raws)
         return linear ? Kind::raw : Kind::other;

@@ -17,17 +17,19 @@ namespace srisp {
 struct Reference {
     std::string name; ///< base name of the file
     std::string path;
-    std::string hash;    ///< "xxh128:" and 32 hex digits, of the file's bytes
+    std::string hash;    ///< "xxh128:" and 32 hex digits, of the file's bytes (plain samples: and their description's)
     Thumbnail thumbnail; ///< linear camera RGB in [0,1], upright
     CameraFacts facts;
     std::vector<std::string> notes; ///< what was ignored or assumed, one sentence each
 };
 
-/// Decodes a reference: any RAW file that LibRaw decodes to RGB; an EXR or TIFF that srisp wrote; or any float EXR,
+/// Decodes a reference: any RAW file that LibRaw decodes to RGB; lossy DNGs; plain samples without a header that a JSON
+/// file beside them describes (docs/usage.md); an EXR or TIFF that srisp wrote; or any float EXR,
 /// which is taken as camera RGB in [0,1]. Black is subtracted per CFA position, divided by (white − black), clipped to
 /// [0,1]; the thumbnail needs no demosaicing. Threads: safe. Refused, each with its own message: display-encoded
-/// images, filters of other than three colours, Foveon, monochrome, X-Trans where LibRaw does not decode it, black
-/// frames (98th percentile below 0.005), truncated files, empty areas. [P 4.2; DNG 1.4]
+/// images, filters of other than three colours, Foveon, monochrome, X-Trans where LibRaw does not decode it, files
+/// that LibRaw would know by their size alone, black frames (98th percentile below 0.005), truncated files, empty
+/// areas. [P 4.2; DNG 1.4]
 SRISP_API Expected<std::shared_ptr<const Reference>> load_reference(const std::string& path);
 
 /// Chooses one file where `pattern` names several: a folder, a glob, or a list (`a.dng;b.dng`); a plain file is itself,
@@ -39,7 +41,11 @@ SRISP_API Expected<std::string> choose_reference(const std::string& pattern, std
 SRISP_API Expected<std::string> choose_reference(const std::vector<std::string>& patterns, std::uint64_t seed,
                                                  const std::string& photo_name);
 
-/// `load_reference` with a cache for the whole process: key is path, inode, size and modification time in ns.
+/// Path and state (inode, size, modification time in ns) of all files that `load_reference` reads for `path`: a key for
+/// what was made of it.
+SRISP_API std::string reference_state(const std::string& path);
+
+/// `load_reference` with a cache for the whole process: key is the reference's state.
 SRISP_API Expected<std::shared_ptr<const Reference>> load_reference_cached(const std::string& path);
 
 } // namespace srisp

@@ -50,6 +50,16 @@ void check_every_pixel(const Thumbnail& thumbnail, const std::array<double, 3>& 
     CHECK(worst <= tolerance);
 }
 
+/// Means of the channels, to half of the last of three digits.
+void check_means(const Thumbnail& thumbnail, const std::array<double, 3>& expected)
+{
+    std::array<double, 3> sums{};
+    for (std::size_t i = 0; i < thumbnail.rgb.size(); ++i)
+        sums[i % 3] += double(thumbnail.rgb[i]);
+    for (std::size_t c = 0; c < 3; ++c)
+        CHECK(std::abs(sums[c] * 3 / double(thumbnail.rgb.size()) - expected[c]) < 6e-4);
+}
+
 constexpr double kColors[] = { 0.5, 0.25, 0.75 }; // of R, G, B
 
 /// A value of each site's colour, for the pattern as it is at (left, top).
@@ -122,6 +132,47 @@ TEST_CASE("Black per position, in fractions, and white")
     const auto scaled = [&](double b) { return (1000 - b) / (4000 - b); };
     check_every_pixel(reference.thumbnail,
                       { scaled(black[0]), (scaled(black[1]) + scaled(black[2])) / 2, scaled(black[3]) }, 1e-6);
+}
+
+TEST_CASE("Equal black levels need no pattern, however many there are")
+{
+    for (const std::size_t count : { 2, 3, 4, 36 }) {
+        CAPTURE(count);
+        SyntheticDng mosaic, linear;
+        mosaic.set(50714, T::kShort, std::vector<double>(count, 512)).set(50717, T::kShort, { 10512 });
+        mosaic.fill([](int, int, int) { return 5512; });
+        check_every_pixel(loaded(mosaic).thumbnail, { 0.5, 0.5, 0.5 }, 1e-6);
+        CHECK(loaded(mosaic).notes.empty());
+        linear.linear().set(50714, T::kShort, std::vector<double>(count, 512)).set(50717, T::kShort, { 10512 });
+        linear.fill([](int, int, int) { return 5512; }, 3);
+        check_every_pixel(loaded(linear).thumbnail, { 0.5, 0.5, 0.5 }, 1e-6);
+    }
+}
+
+TEST_CASE("Four black levels that differ are a pattern of 2 x 2 where the DNG states none, which is noted")
+{
+    SyntheticDng dng;
+    dng.resize(512, 512).set(50714, T::kShort, { 64, 100, 30, 80 }).set(50717, T::kShort, { 4000 });
+    dng.fill([](int, int, int) { return 1000; });
+    const Reference reference = loaded(dng);
+    CHECK(reference.facts.black_level == std::array<float, 4>{ 64, 100, 80, 30 });
+    CHECK(reference.notes ==
+          std::vector<std::string>{ "the DNG states four black levels without a pattern: 2 x 2 was assumed" });
+    const auto scaled = [&](double b) { return (1000 - b) / (4000 - b); };
+    check_every_pixel(reference.thumbnail, { scaled(64), (scaled(100) + scaled(30)) / 2, scaled(80) }, 1e-6);
+
+    CHECK(refusal(dng.set(50714, T::kShort, { 64, 100, 30 }).bytes()) ==
+          "DNG with 3 black levels where its pattern needs 1");
+    CHECK(refusal(dng.set(50713, T::kShort, { 1, 1 }).set(50714, T::kShort, { 64, 100, 30, 80 }).bytes()) ==
+          "DNG with 4 black levels where its pattern needs 1");
+}
+
+TEST_CASE("A small writer's DNG with four equal black levels is what it was made from")
+{
+    SKIP_WITHOUT_SHARED("cases/dng_four_black_levels_without_repeat_dim.dng");
+    const auto reference = load_reference(shared_file("cases/dng_four_black_levels_without_repeat_dim.dng"));
+    REQUIRE_MESSAGE(reference, (reference ? "" : reference.error().message));
+    check_means((*reference)->thumbnail, { 0.347, 0.403, 0.346 });
 }
 
 TEST_CASE("Black levels per column and row, which LibRaw averages, are subtracted where they are")
@@ -321,7 +372,8 @@ TEST_CASE("What can't be a reference is refused, each with its own message")
     CHECK(with([](T& d) { d.set(262, T::kShort, { 2 }); }) ==
           "DNG without a main RAW image (photometric interpretation CFA or LinearRaw)");
     CHECK(with([](T& d) { d.set(259, T::kShort, { 34892 }); }) ==
-          "DNG compressed by lossy JPEG (8 bit, not sensor values): not supported");
+          "damaged lossy DNG: its image data do not begin with a JPEG");
+    CHECK(with([](T& d) { d.set(259, T::kShort, { 9 }); }).find("is a GoPro RAW file (GPR), compressed by VC-5") == 0);
     CHECK(with([](T& d) { d.set(259, T::kShort, { 8 }); }) ==
           "DNG of integers with compression 8: LibRaw does not decode it");
     CHECK(with([](T& d) { d.fill([](int, int, int) { return 100; }); }) ==

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/tiff_raw.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <libraw/libraw_version.h>
+
+#include "reference/tiff_tags.h"
+
+namespace srisp {
+
+namespace {
+
+enum : std::uint16_t {
+    kCompression = 259,
+    kPhotometric = 262,
+    kMake = 271,
+    kModel = 272,
+    kStripOffsets = 273,
+    kDngVersion = 50706
+};
+constexpr int kVc5 = 9, kNikon = 34713;
+const char kHighEfficiency[] = "CONTACT_INTOPIX"; // near the start of Nikon's HE and HE* data
+
+int integer(const TiffTags& tags, const TiffFolder& folder, std::uint16_t tag)
+{
+    return int(std::clamp(tags.value(folder, tag, 0), 0.0, 65535.0));
+}
+
+/// What kind of RAW image a folder holds; empty for other images. 9 is JBIG in other TIFFs.
+std::string image_kind(const TiffTags& tags, const TiffFolder& folder)
+{
+    static const int kCameras[] = { 32767, 32769, 32770, 32772, kNikon, 34892, 65000, 65535 };
+    switch (integer(tags, folder, kPhotometric)) {
+    case 32803:
+        return "a mosaic";
+    case 34892:
+    case 32892: // Sony
+        return "a LinearRaw image";
+    }
+    const int compression = integer(tags, folder, kCompression);
+    return std::find(std::begin(kCameras), std::end(kCameras), compression) != std::end(kCameras)
+               ? "an image of a camera"
+               : "";
+}
+
+bool is_high_efficiency(const FileBytes& file, const TiffTags& tags, const TiffFolder& folder)
+{
+    constexpr std::size_t kLook = 256;
+    const double offset = tags.value(folder, kStripOffsets, -1);
+    if (integer(tags, folder, kCompression) != kNikon || offset < 0 || offset >= double(file.size))
+        return false;
+    const unsigned char* begin = file.data.get() + std::size_t(offset);
+    const unsigned char* end = begin + std::min(kLook, file.size - std::size_t(offset));
+    return std::search(begin, end, kHighEfficiency, kHighEfficiency + std::strlen(kHighEfficiency)) != end;
+}
+
+} // namespace
+
+std::string tiff_raw_name(const FileBytes& file)
+{
+    const TiffTags tags(file.data.get(), file.size);
+    if (tags.folders().empty())
+        return "";
+    const TiffFolder& first = tags.folders()[0];
+    const std::string model = tags.text(first, kModel).empty() ? tags.text(first, kMake) : tags.text(first, kModel);
+    const std::string what = "a RAW file" + (model.empty() ? "" : " of '" + model + "'") + " (TIFF with ";
+    for (const TiffFolder& folder : tags.folders())
+        if (const std::string kind = image_kind(tags, folder); !kind.empty())
+            return what + kind + ", compression " + std::to_string(integer(tags, folder, kCompression)) + ")";
+    return first.find(kDngVersion) ? what + "the tags of a DNG)" : "";
+}
+
+Status check_tiff_raw(const FileBytes& file)
+{
+    const TiffTags tags(file.data.get(), file.size);
+    for (const TiffFolder& folder : tags.folders()) {
+        if (is_high_efficiency(file, tags, folder))
+            return Error{ "is a Nikon RAW file of high-efficiency compression, which LibRaw " LIBRAW_VERSION_STR
+                          " does not decode: convert it to DNG" };
+        if (!image_kind(tags, folder).empty() && integer(tags, folder, kCompression) == kVc5)
+            return Error{ undecoded_vc5() };
+    }
+    return {};
+}
+
+std::string undecoded_vc5()
+{
+    return "is a GoPro RAW file (GPR), compressed by VC-5, which LibRaw " LIBRAW_VERSION_STR
+           " does not decode: convert it to DNG, for example with Adobe's DNG Converter or GoPro's gpr_tools";
+}
+
+} // namespace srisp
