@@ -92,6 +92,15 @@ template<class Value> void invert(void* data, std::size_t count)
         values[i] = static_cast<Value>(~values[i]);
 }
 
+/// 8-bit values at the start of their own place become 16-bit ones.
+void widen(void* data, std::size_t count)
+{
+    const auto* const bytes = static_cast<const std::uint8_t*>(data);
+    auto* const shorts = static_cast<std::uint16_t*>(data);
+    for (std::size_t i = count; i-- > 0;)
+        shorts[i] = static_cast<std::uint16_t>(bytes[i] * 257);
+}
+
 } // namespace
 
 Expected<std::unique_ptr<ImageFile>> ImageFile::open(const std::string& path, const OIIO::ImageSpec& config,
@@ -171,6 +180,9 @@ bool ImageFile::seek_subimage(int subimage, int miplevel)
     m_inverts = white_is_0 && spec.format.size() > 1;
     const bool straight = spec.get_int_attribute("oiio:UnassociatedAlpha") != 0 && spec.alpha_channel >= 0;
     m_associates = straight && !m_wants_straight;
+    m_widens = m_associates && spec.format == OIIO::TypeUInt8 && spec.channelformats.empty();
+    if (m_widens)
+        spec.set_format(OIIO::TypeUInt16);
     if (!straight || m_associates)
         spec.erase_attribute("oiio:UnassociatedAlpha");
     m_spec = std::move(spec);
@@ -231,6 +243,8 @@ bool ImageFile::accept(bool read, int y, void* data, std::size_t bytes)
 void ImageFile::put_right(void* data, int width, int height) const
 {
     const std::size_t values = std::size_t(width) * static_cast<std::size_t>(height * m_spec.nchannels);
+    if (m_widens)
+        widen(data, values);
     if (m_inverts && m_spec.format.size() == 2)
         invert<std::uint16_t>(data, values);
     else if (m_inverts)

@@ -63,6 +63,7 @@ private:
     bool m_wants_straight, m_allows_partial, m_applies_gain_map;
     int m_subimage = -1, m_miplevel = -1;
     bool m_associates = false; ///< colour is stored straight and wanted associated
+    bool m_widens = false;     ///< from 8 to 16 bits, or colours under little alpha would be lost in that
     bool m_inverts = false;    ///< white is stored as 0
     std::optional<GainMap> m_gain_map;
     std::vector<std::string> m_notes;

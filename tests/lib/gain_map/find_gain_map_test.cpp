@@ -136,8 +136,7 @@ TEST_CASE("photos without a map have none, and one that was cut off is missed")
     const auto found = find_gain_map_of_file(path);
     REQUIRE(!found);
     CHECK(found.error().message == kMissing);
-    CHECK(find_gain_map_of_file(folder.path("missing.jpg")).error().message ==
-          "No such file or directory");
+    CHECK(find_gain_map_of_file(folder.path("missing.jpg")).error().message == "No such file or directory");
     CHECK(!*find_gain_map_of_file(folder.file("other.tif", "II*")));
     const auto map = find_gain_map_of_file(folder.file("whole.jpg", whole));
     REQUIRE(map);
