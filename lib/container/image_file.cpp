@@ -152,7 +152,9 @@ bool ImageFile::seek_subimage(int subimage, int miplevel)
     if (subimage == m_subimage && miplevel == m_miplevel)
         return true;
     const Container& container = container_of(m_inner->format_name());
-    if ((container.first_only && subimage > 0) || !m_inner->seek_subimage(subimage, miplevel))
+    const bool found = !(container.first_only && subimage > 0) && m_inner->seek_subimage(subimage, miplevel);
+    m_inner->geterror(); // TIFF's reader leaves one where there is no such subimage, for the next reading to find
+    if (!found)
         return false;
     OIIO::ImageSpec spec = m_inner->spec();
     if (spec.width < 1 || spec.height < 1) {

@@ -351,6 +351,16 @@ TEST_CASE("what breaks off is refused in every container, and read as far as it 
     }
 }
 
+TEST_CASE("looking for a subimage that is not there does no harm")
+{
+    const ScratchFolder folder;
+    write_made(folder.path("photo.tif"), made_spec(3));
+    const auto file = opened(folder.path("photo.tif"));
+    CHECK(!file->seek_subimage(1, 0));
+    CHECK(!file->has_error());
+    CHECK(largest_difference(pixels_of(*file), made_pixels(3)) < 0.003);
+}
+
 TEST_CASE("what is no image file is named")
 {
     const ScratchFolder folder;
