@@ -153,9 +153,10 @@ bool ImageFile::seek_subimage(int subimage, int miplevel)
         return true;
     const Container& container = container_of(m_inner->format_name());
     const bool found = !(container.first_only && subimage > 0) && m_inner->seek_subimage(subimage, miplevel);
-    m_inner->geterror(); // TIFF's reader leaves one where there is no such subimage, for the next reading to find
-    if (!found)
+    if (!found) {
+        m_inner->geterror(); // or the next reading would find it
         return false;
+    }
     OIIO::ImageSpec spec = m_inner->spec();
     if (spec.width < 1 || spec.height < 1) {
         errorfmt("{}: has {} x {} pixels", m_where, spec.width, spec.height);

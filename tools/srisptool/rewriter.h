@@ -24,8 +24,8 @@ struct RewriteOptions {
     std::string folder;         ///< the temporary folder, absolute
     std::string typed_command;  ///< the user's command line, to be recorded; "": not wanted
     bool progress = false;      ///< on stderr, once something takes long
-    bool allow_partial = false; ///< photos that break off are taken as far as they go
     bool notes = false;         ///< on stderr: what was assumed or clipped
+    bool allow_partial = false; ///< photos that break off are taken as far as they go
 };
 
 /// Turns each of our commands into commands that oiiotool knows. An image that is on the stack is handed over through
