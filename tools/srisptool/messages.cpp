@@ -89,12 +89,10 @@ std::string reason_for(const Subject& subject, const std::string& frame, std::st
     for (const std::string& own : { path, typed }) {
         if (own.empty())
             continue;
-        const bool image = take_off(reason, own + ": ") || take_off(reason, "source '" + own + "'") ||
-                           take_off(reason, "photo '" + own + "'") || take_off(reason, "image '" + own + "'");
+        const bool image = take_off(reason, own + ": ") || take_off(reason, "photo '" + own + "'") ||
+                           take_off(reason, "image '" + own + "'");
         if (!image)
             continue;
-        if (begins_with(reason, " ")) // 'a.jpg' does not exist
-            return named(subject, frame) + reason;
         take_off(reason, ": ");
         // Readers begin with the name, too.
         if (take_off(reason, '"' + own + '"') || take_off(reason, "'" + own + "'") || take_off(reason, own)) {
@@ -209,12 +207,16 @@ std::string Messages::with_own_names(std::string text) const
         const std::string own = typed_name(*name->subject, name->frame);
         text.replace(name->begin, name->end - name->begin, own.empty() ? "image" : own);
     }
-    // The plugin's notes begin with an image's path.
+    // The plugin's notes begin with an image's path, or with "photo 'path'".
     if (begins_with(text, kNote)) {
-        const std::string folder = folder_of(text.substr(kNote.size(), text.find(": ", kNote.size()) - kNote.size()));
+        std::size_t start = kNote.size();
+        for (const std::string kind : { "photo '", "image '" })
+            if (text.compare(start, kind.size(), kind) == 0)
+                start += kind.size();
+        const std::string folder = folder_of(text.substr(start, text.find(": ", start) - start));
         for (const auto& [number, subject] : m_subjects)
             if (!folder.empty() && folder == folder_of(subject.path)) {
-                text.replace(kNote.size(), folder.size(), folder_of(subject.image));
+                text.replace(start, folder.size(), folder_of(subject.image));
                 break;
             }
     }

@@ -27,15 +27,15 @@ std::string shown(const std::string& text, int lines = 1)
 
 TEST_CASE("an error of ours is one line with the name that the user typed")
 {
-    CHECK(shown("oiiotool ERROR: read : \"/T/1.srisp\": source '/home/a.jpg': \"/home/a.jpg\" is not a JPEG file\n"
+    CHECK(shown("oiiotool ERROR: read : \"/T/1.srisp\": photo '/home/a.jpg': \"/home/a.jpg\" is not a JPEG file\n"
                 "Full command line was:\n> oiiotool -i:now=1 /T/1.srisp\n") ==
           "srisptool: ERROR: photo 'a.jpg': is not a JPEG file\n");
     CHECK(shown("oiiotool ERROR: read : Invalid image file \"/T/1.srisp\": /home/a.jpg: is a CMYK image\n") ==
           "srisptool: ERROR: photo 'a.jpg': is a CMYK image\n");
     CHECK(shown("oiiotool ERROR: read : \"/T/3.0.srisp\": b.png: is no RAW-like image\n") ==
           "srisptool: ERROR: image 'b.png': is no RAW-like image\n");
-    CHECK(shown("oiiotool ERROR: read : \"/T/2.srisp\": source '/home/b.png' does not exist\n") ==
-          "srisptool: ERROR: image 'b.png' does not exist\n");
+    CHECK(shown("oiiotool ERROR: read : \"/T/2.srisp\": photo '/home/b.png': does not exist\n") ==
+          "srisptool: ERROR: image 'b.png': does not exist\n");
     CHECK(shown("oiiotool ERROR: read : \"/T/2.srisp\": out of memory\n") ==
           "srisptool: ERROR: image 'b.png': out of memory\n");
     CHECK(shown("oiiotool ERROR: -o:datatype=float:bits=0:autocc=0:autotrim=0:dither=0 : b.png: records nothing\n") ==
@@ -52,7 +52,7 @@ TEST_CASE("a reason that names the file that is at fault stands for itself")
 
 TEST_CASE("of a sequence the frame is named")
 {
-    CHECK(shown("oiiotool ERROR: read : \"/T/4.0012.srisp\": source '/home/#/s.0012.tif': is damaged\n") ==
+    CHECK(shown("oiiotool ERROR: read : \"/T/4.0012.srisp\": photo '/home/#/s.0012.tif': is damaged\n") ==
           "srisptool: ERROR: photo 's.0012.tif': is damaged\n");
     CHECK(shown("oiiotool ERROR: read : File does not exist: \"/T/4.0007.srisp\"\n") ==
           "srisptool: ERROR: photo 's.0007.tif' does not exist\n");
@@ -85,6 +85,8 @@ TEST_CASE("errors of oiiotool's own stay recognisable, without the command line 
 TEST_CASE("notes name the image as the user did")
 {
     CHECK(shown("srisp: note: /home/a.jpg: has no profile\n") == "srisp: note: a.jpg: has no profile\n");
+    CHECK(shown("srisp: note: photo '/home/a.jpg': has no profile\n") ==
+          "srisp: note: photo 'a.jpg': has no profile\n");
     CHECK(shown("srisp: note: /home/#/s.0001.tif: is dark\n") == "srisp: note: s.0001.tif: is dark\n");
     CHECK(shown("srisp: note: /elsewhere/a.jpg: is dark\n") == "srisp: note: /elsewhere/a.jpg: is dark\n");
 }
