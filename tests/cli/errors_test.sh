@@ -49,7 +49,7 @@ check "an empty folder as reference" refuses 1 "empty" "$photo" --srisp-unproces
 check "a folder as photo" refuses 1 "folder" folder --srisp-unprocess "$reference"
 check "a folder as model" refuses 1 "folder" "$photo" --srisp-unprocess:model=./folder "$reference"
 echo text >text.jpg
-no_jpeg="is not a JPEG file, magic number doesn't match (was 0x7465)"
+no_jpeg="is not an image that OpenImageIO reads"
 check "one line on a photo" tells "srisptool: ERROR: photo 'text.jpg': $no_jpeg" text.jpg --srisp-unprocess "$reference" -o raw.exr
 check "and where it is only read" tells "srisptool: ERROR: image 'text.jpg': $no_jpeg" text.jpg --flip --srisp-params "$reference"
 cp "$photo" s.0001.jpg

@@ -315,17 +315,18 @@ def check_table(folder):
     look.write_text(run(TOOL, right, "--srisp-params", REFERENCE).stdout)
     expected = by_tool(right, look)
     gain = printed_gain(right)
-    baked_containers = set()  # one of each
+    seen_containers = set()  # the slower ways in are tried with one file of each
     for path, limit in made_files(folder, upright):
         for way, read in WAYS.items():
+            if way in ("after --crop", "--frames") and path.suffix in seen_containers:
+                continue
             found = difference(read(path, look), expected)
             check(f"{path.name}, {way}", found <= limit, f"differs by {found:.2f}, at most {limit} is right")
-        alpha = path.name.startswith("alpha")
-        check(f"{path.name}, --srisp-params", abs(printed_gain(path) / gain - 1) < (0.05 if alpha else 0.02),
-              f"gain {printed_gain(path)}, right is {gain}")
-        if path.suffix in baked_containers:
+        if path.suffix in seen_containers:
             continue
-        baked_containers.add(path.suffix)
+        seen_containers.add(path.suffix)
+        check(f"{path.name}, --srisp-params", abs(printed_gain(path) / gain - 1) < 0.02,
+              f"gain {printed_gain(path)}, right is {gain}")
         baked = run(build / "bin" / "srispbake", "--reference", REFERENCE, "--source", path, "-o", folder / "bake.clf",
                     "--lut-size", "17")
         check(f"{path.name}, srispbake", baked.returncode == 0, baked.stderr)
