@@ -353,6 +353,20 @@ def check_orientations(folder):
                   f"gain {printed_gain(path)}, upright {gain}")
 
 
+def check_cut(folder, look):
+    """A file that breaks off is refused on every way in, and nothing is written."""
+    for name in ("plain.png", "p3.jpg", "p3.webp", "plain_16.tif", "plain.exr", "p3.heic", "p3.avif", "alpha.jp2"):
+        whole = folder / name
+        if not whole.exists():
+            continue
+        cut = folder / f"cut{whole.suffix}"
+        cut.write_bytes(whole.read_bytes()[: whole.stat().st_size * 6 // 10])
+        for commands in ((), ("--addc", "0")):
+            check(f"{cut.name} {commands} is refused", by_tool(cut, look, *commands) is None)
+        baked = run(build / "bin" / "srispbake", "--reference", REFERENCE, "--source", cut, "-o", folder / "cut.clf")
+        check(f"{cut.name}, srispbake refuses it", baked.returncode == 1 and not (folder / "cut.clf").exists())
+
+
 # -- varied photos -----------------------------------------------------------------------------------------------------
 
 
@@ -429,6 +443,7 @@ with tempfile.TemporaryDirectory() as name:
     scratch = Path(name)
     check_table(scratch)
     check_orientations(scratch)
+    check_cut(scratch, scratch / "look.json")
     check_varied(scratch, scratch / "look.json")
 print(f"{checks - failures} passed, {failures} failed")
 sys.exit(1 if failures else 0)
