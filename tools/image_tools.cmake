@@ -35,7 +35,7 @@ if(SRISP_SANITIZE)
 endif()
 install(TARGETS output_guard DESTINATION ${CMAKE_INSTALL_LIBDIR}/srisp)
 
-srisp_image_tool(srisppack srisp_base srisp_model srisp_recipe srisp_thumbnail srisp_photo srisp_reference
+srisp_image_tool(srisppack srisp_base srisp_model srisp_recipe srisp_thumbnail srisp_container srisp_photo
     srisp_pack)
 srisp_man_page(srisppack --help)
 

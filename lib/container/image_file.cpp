@@ -7,11 +7,12 @@
 #include <filesystem>
 
 #include "base/file_bytes.h"
+#include "color/color_encoding.h"
 #include "container/file_description.h"
-#include "container/jpeg_damage.h"
 #include "container/reader_name.h"
 #include "container/webp_input.h"
 #include "gain_map/find_gain_map.h"
+#include "jpeg/jpeg_damage.h"
 
 namespace srisp {
 
@@ -58,8 +59,20 @@ Expected<std::unique_ptr<OIIO::ImageInput>> open_by(const std::string& reader, c
     return Error{ reason.empty() ? "is damaged, its reader does not say how" : reason };
 }
 
-Expected<std::unique_ptr<OIIO::ImageInput>> open_file(const std::string& path, const OIIO::ImageSpec& hints)
+/// Of a file, or of a name that only a reader understands.
+Expected<std::unique_ptr<OIIO::ImageInput>> open_input(const std::string& path, const OIIO::ImageSpec& hints)
 {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) {
+        if (path.find('?') == std::string::npos)
+            return Error{ "does not exist" };
+        auto input = OIIO::ImageInput::open(path, &hints);
+        if (!input)
+            return Error{ OIIO::geterror() };
+        return input;
+    }
+    if (!std::filesystem::is_regular_file(path, ignored))
+        return Error{ std::filesystem::is_directory(path, ignored) ? "is a folder" : "is not a regular file" };
     const auto head = read_head(path, kReaderHeadBytes);
     if (!head)
         return head.error();
@@ -69,13 +82,16 @@ Expected<std::unique_ptr<OIIO::ImageInput>> open_file(const std::string& path, c
     return open_by(reader, path, hints);
 }
 
-/// Of integers that nothing names, or whose name nobody knows, since what an image was is forgotten once a program has
-/// made it float. Every PNM is "Rec709" to its reader, whatever it holds.
+/// Of integers that nothing names, or whose name nobody knows: what an image was is forgotten once a program has made
+/// it float. Every PNM is "Rec709" to its reader, whatever it holds.
 void name_color_space(OIIO::ImageSpec& spec)
 {
     const std::string name = spec.get_string_attribute("oiio:ColorSpace");
-    if (spec.format.is_floating_point() || !(name.empty() || name == "Rec709"))
+    const bool known = named_encoding(name) && name != "Rec709";
+    if (spec.format.is_floating_point() || known)
         return;
+    if (!name.empty() && name != "Rec709")
+        add_note(spec, "the colour space '" + name + "' is not known; taken as display-encoded sRGB");
     spec.attribute("oiio:ColorSpace", "sRGB");
 }
 
@@ -113,19 +129,7 @@ Expected<std::unique_ptr<ImageFile>> ImageFile::open(const std::string& path, co
     // Colour is asked for straight, so that nothing is lost in dark transparent pixels.
     hints.attribute("oiio:UnassociatedAlpha", 1);
 
-    std::error_code ignored;
-    Expected<std::unique_ptr<OIIO::ImageInput>> inner = Error{ "" };
-    if (std::filesystem::is_regular_file(path, ignored)) {
-        inner = open_file(path, hints);
-    } else if (std::filesystem::exists(path, ignored)) {
-        inner = Error{ std::filesystem::is_directory(path, ignored) ? "is a folder" : "is not a regular file" };
-    } else if (path.find('?') == std::string::npos) {
-        inner = Error{ "does not exist" };
-    } else if (auto input = OIIO::ImageInput::open(path, &hints)) {
-        inner = std::move(input);
-    } else {
-        inner = Error{ OIIO::geterror() };
-    }
+    auto inner = open_input(path, hints);
     if (!inner)
         return Error{ where + ": " + inner.error().message };
     auto file = std::unique_ptr<ImageFile>(new ImageFile(std::move(*inner), path, config, where));

@@ -12,4 +12,7 @@ constexpr std::size_t kReaderHeadBytes = 132;
 /// formats that begin with nothing particular. A reader that gets another format's file may abort or hang. Empty: none.
 std::string reader_name(const std::string& head, const std::string& path);
 
+/// The reader that OpenImageIO's own list gives to the ending of a name; empty: none.
+std::string reader_of_ending(const std::string& path);
+
 } // namespace srisp

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/file_bytes.h"
-#include "gain_map/jpeg_segments.h"
 #include "gain_map/xmp_packet.h"
+#include "jpeg/jpeg_segments.h"
 
 namespace srisp {
 

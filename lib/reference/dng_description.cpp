@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "reference/jpeg_data.h"
+#include "jpeg/jpeg_data.h"
 #include "reference/tiff_raw.h"
 #include "reference/tiff_tags.h"
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "jpeg/jpeg_data.h"
 #include "reference/decoders.h"
 #include "reference/dng_curves.h"
-#include "reference/jpeg_data.h"
 
 namespace srisp {
 

@@ -10,9 +10,9 @@
 
 #include "base/file_bytes.h"
 #include "base/hashes.h"
+#include "container/file_type.h"
 #include "recipe/reference_pattern.h"
 #include "reference/decoders.h"
-#include "reference/file_type.h"
 #include "reference/raw_pixels.h"
 #include "reference/sample_layout.h"
 #include "reference/tiff_raw.h"
@@ -144,7 +144,7 @@ FileType type_of(const std::string& head, const std::string& path)
     const std::vector<std::string> layouts = layout_paths(path);
     const bool described = type.kind == FileKind::display_encoded && has_raw_extension(path) &&
                            std::filesystem::exists(layouts.front(), unknown);
-    return described ? FileType{ FileKind::headerless, "" } : type;
+    return described ? FileType{ FileKind::headerless, "", "" } : type;
 }
 
 } // namespace

@@ -3,13 +3,9 @@
 // finite values, no map, or an error, in bounded time and memory. Most useful with SRISP_SANITIZE. Usage:
 // gain_map_fuzz [rounds] [seed] [file…]; files are damaged as well as those made here.
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <random>
 #include <vector>
 
+#include "damage.h"
 #include "gain_map/gain_map.h"
 #include "ultra_hdr_jpeg.h"
 
@@ -31,18 +27,6 @@ std::vector<std::string> seeds_of_kind()
     index_only.big_endian = false;
     container_only.has_index = false;
     return { plain.bytes(), colors.bytes(), iso.bytes(), index_only.bytes(), container_only.bytes() };
-}
-
-/// A few bytes set to values that tend to break parsers; or the end cut off.
-std::string damaged(std::string bytes, std::mt19937& random)
-{
-    static const unsigned char kValues[] = { 0, 1, 2, 0x7f, 0x80, 0xff, '"', '<', '-', 'e' };
-    const int count = 1 + int(random() % 4);
-    for (int i = 0; i < count; ++i)
-        bytes[random() % bytes.size()] = random() % 2 ? char(kValues[random() % sizeof kValues]) : char(random());
-    if (random() % 8 == 0)
-        bytes.resize(1 + random() % bytes.size());
-    return bytes;
 }
 
 /// False if a value is not finite, or an error has no message.
@@ -75,19 +59,10 @@ bool is_survived(const std::string& bytes, int& applied)
 
 int main(int argc, char** argv)
 {
-    const int rounds = argc > 1 ? std::atoi(argv[1]) : 3000;
-    std::mt19937 random(argc > 2 ? unsigned(std::atoi(argv[2])) : 1);
-    std::vector<std::string> seeds = seeds_of_kind();
-    for (int i = 3; i < argc; ++i) {
-        std::ifstream in(argv[i], std::ios::binary);
-        seeds.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+    const std::string values("\0\1\2\x7f\x80\xff\"<-e", 10);
+    return FuzzRun{
+        seeds_of_kind(), values, std::string::npos, "applied", "a value is not finite, or an error has no message",
+        is_survived
     }
-    int applied = 0;
-    for (int round = 0; round < rounds; ++round)
-        if (!is_survived(damaged(seeds[std::size_t(round) % seeds.size()], random), applied)) {
-            std::fprintf(stderr, "round %d: a value is not finite, or an error has no message\n", round);
-            return 1;
-        }
-    std::printf("%d damaged files: %d maps applied, %d none or refused\n", rounds, applied, rounds - applied);
-    return applied > 0 && applied < rounds ? 0 : 1;
+        .main(argc, argv);
 }

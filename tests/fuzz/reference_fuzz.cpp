@@ -2,13 +2,8 @@
 // Damages DNGs and other files at random (same seed, same damage) and decodes them: whatever they hold, the outcome is
 // a reference with values in [0,1] or an error, in bounded time and memory. Most useful with SRISP_SANITIZE. Usage:
 // reference_fuzz [rounds] [seed] [file…]; files are damaged as well as the DNGs made here.
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <random>
-
 #include "base/file_bytes.h"
+#include "damage.h"
 #include "lib/reference/synthetic_dng.h"
 #include "reference/decoders.h"
 #include "reference/raw_pixels.h"
@@ -34,21 +29,6 @@ std::vector<std::string> seeds_of_kind()
              big.fill(noise).bytes() };
 }
 
-/// A few bytes, most of them among the tags, set to values that tend to break parsers; or the end cut off.
-std::string damaged(std::string bytes, std::mt19937& random)
-{
-    static const unsigned char kValues[] = { 0, 1, 2, 0x7f, 0x80, 0xff };
-    const int count = 1 + int(random() % 4);
-    for (int i = 0; i < count; ++i) {
-        const std::size_t range = random() % 4 == 0 ? bytes.size() : std::min<std::size_t>(bytes.size(), 400);
-        char& byte = bytes[random() % range];
-        byte = random() % 2 ? char(kValues[random() % sizeof kValues]) : char(random());
-    }
-    if (random() % 8 == 0)
-        bytes.resize(1 + random() % bytes.size());
-    return bytes;
-}
-
 /// Decodes as load_reference does; false if values are not in [0,1].
 bool decode(const std::string& bytes, int& decoded)
 {
@@ -70,19 +50,9 @@ bool decode(const std::string& bytes, int& decoded)
 
 int main(int argc, char** argv)
 {
-    const int rounds = argc > 1 ? std::atoi(argv[1]) : 3000;
-    std::mt19937 random(argc > 2 ? unsigned(std::atoi(argv[2])) : 1);
-    std::vector<std::string> seeds = seeds_of_kind();
-    for (int i = 3; i < argc; ++i) {
-        std::ifstream in(argv[i], std::ios::binary);
-        seeds.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
-    }
-    int decoded = 0;
-    for (int round = 0; round < rounds; ++round)
-        if (!decode(damaged(seeds[std::size_t(round) % seeds.size()], random), decoded)) {
-            std::fprintf(stderr, "round %d: a value is not in [0,1], or an error has no message\n", round);
-            return 1;
-        }
-    std::printf("%d damaged files: %d decoded, %d refused\n", rounds, decoded, rounds - decoded);
-    return decoded > 0 && decoded < rounds ? 0 : 1;
+    constexpr std::size_t tags = 400;
+    const std::string values("\0\1\2\x7f\x80\xff", 6);
+    return FuzzRun{ seeds_of_kind(), values, tags, "decoded", "a value is not in [0,1], or an error has no message",
+                    decode }
+        .main(argc, argv);
 }

@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <filesystem>
 
-#include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 
 #include "../common/failure.h"
 #include "base/file_bytes.h"
 #include "base/hashes.h"
 #include "camera_folder.h"
+#include "container/file_type.h"
+#include "container/reader_name.h"
 #include "recipe/reference_pattern.h"
-#include "reference/file_type.h"
 
 namespace srisp::tool {
 
@@ -31,28 +31,11 @@ std::string extension_of(const std::string& path)
     return extension.empty() ? extension : extension.substr(1);
 }
 
-/// Extensions of still images that OpenImageIO reads.
-const std::vector<std::string>& image_extensions()
-{
-    static const std::vector<std::string> extensions = [] {
-        std::vector<std::string> list;
-        // "bmp:bmp,dib;jpeg:jpg,jpe,jpeg;…"; some formats are no still images.
-        for (const std::string& format : OIIO::Strutil::splits(OIIO::get_string_attribute("extension_list"), ";")) {
-            const std::vector<std::string> parts = OIIO::Strutil::splits(format, ":");
-            const std::vector<std::string> excluded = { "ffmpeg", "raw", "null", "socket", "term", "srisp", "openvdb" };
-            if (parts.size() == 2 && std::find(excluded.begin(), excluded.end(), parts[0]) == excluded.end())
-                for (const std::string& extension : OIIO::Strutil::splits(parts[1], ","))
-                    list.push_back(extension);
-        }
-        return list;
-    }();
-    return extensions;
-}
-
+/// Whether a name is one of a still image that OpenImageIO reads.
 bool has_image_extension(const std::string& path)
 {
-    const std::vector<std::string>& known = image_extensions();
-    return std::find(known.begin(), known.end(), extension_of(path)) != known.end();
+    const std::vector<std::string> excluded = { "", "ffmpeg", "raw", "null", "socket", "term", "srisp", "openvdb" };
+    return std::find(excluded.begin(), excluded.end(), reader_of_ending(path)) == excluded.end();
 }
 
 Kind kind_of(const std::string& path, Role role)

@@ -113,6 +113,18 @@ TEST_CASE("integers of every container are sRGB by name, and stay what they are"
     }
 }
 
+TEST_CASE("integers whose colour space nobody knows are sRGB by name, with a note")
+{
+    const ScratchFolder folder;
+    OIIO::ImageSpec spec = made_spec(3);
+    spec.attribute("oiio:ColorSpace", "KodakLog");
+    write_made(folder.path("a.dpx"), spec);
+    const auto file = opened(folder.path("a.dpx"));
+    CHECK(space_of(file->spec()) == "sRGB");
+    CHECK(note_list(file->spec()) ==
+          std::vector<std::string>{ "the colour space 'KodakLog' is not known; taken as display-encoded sRGB" });
+}
+
 TEST_CASE("floats keep the name that their reader gives")
 {
     const ScratchFolder folder;

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "gain_map/jpeg_segments.h"
+#include "jpeg/jpeg_segments.h"
 #include "scratch_folder.h"
 #include "ultra_hdr_jpeg.h"
 

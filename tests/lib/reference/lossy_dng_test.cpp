@@ -9,10 +9,9 @@
 
 #include <jpeglib.h>
 
-#include "lib/reference/synthetic_dng.h"
+#include "jpeg/jpeg_data.h"
+#include "lib/reference/loaded_dng.h"
 #include "reference/dng_curves.h"
-#include "reference/jpeg_data.h"
-#include "scratch_folder.h"
 #include "shared_files.h"
 
 using namespace srisp;
@@ -74,28 +73,6 @@ SyntheticDng& tile(SyntheticDng& dng, int size, int samples, const Value& value)
     for (double& offset : offsets)
         offset += double(start);
     return dng.set(324, T::kLong, offsets);
-}
-
-Expected<std::shared_ptr<const Reference>> load(const std::string& bytes)
-{
-    const ScratchFolder folder;
-    return load_reference(folder.file("a.dng", bytes));
-}
-
-Reference loaded(const SyntheticDng& dng)
-{
-    const auto reference = load(dng.bytes());
-    REQUIRE_MESSAGE(reference, (reference ? "" : reference.error().message));
-    return **reference;
-}
-
-std::string refusal(const std::string& bytes)
-{
-    const auto reference = load(bytes);
-    if (reference)
-        return "(it loaded)";
-    const std::string& message = reference.error().message;
-    return message.substr(message.find("': ") + 3);
 }
 
 /// The stored value v stands for (v / 255)²: steep enough that a forgotten table shows.

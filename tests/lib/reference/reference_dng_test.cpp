@@ -8,8 +8,7 @@
 
 #include <tiffio.h>
 
-#include "lib/reference/synthetic_dng.h"
-#include "scratch_folder.h"
+#include "lib/reference/loaded_dng.h"
 #include "shared_files.h"
 
 using namespace srisp;
@@ -17,30 +16,6 @@ using namespace srisp;
 namespace {
 
 using T = SyntheticDng;
-
-Expected<std::shared_ptr<const Reference>> load(const std::string& bytes)
-{
-    const ScratchFolder folder;
-    return load_reference(folder.file("a.dng", bytes));
-}
-
-/// Loads what must load.
-Reference loaded(const SyntheticDng& dng)
-{
-    const auto reference = load(dng.bytes());
-    REQUIRE_MESSAGE(reference, (reference ? "" : reference.error().message));
-    return **reference;
-}
-
-/// Why it was refused, without "reference '…': ".
-std::string refusal(const std::string& bytes)
-{
-    const auto reference = load(bytes);
-    if (reference)
-        return "(it loaded)";
-    const std::string& message = reference.error().message;
-    return message.substr(message.find("': ") + 3);
-}
 
 void check_every_pixel(const Thumbnail& thumbnail, const std::array<double, 3>& expected, double tolerance = 2e-5)
 {

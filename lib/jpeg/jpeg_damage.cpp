@@ -1,40 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "container/jpeg_damage.h"
+#include "jpeg/jpeg_damage.h"
 
 #include <algorithm>
-#include <csetjmp>
 #include <cstdio>
 #include <memory>
 #include <vector>
 
+#include "jpeg/jpeg_decompressor.h"
+
 #include <jerror.h>
-#include <jpeglib.h>
 
 namespace srisp {
 
 namespace {
-
-/// libjpeg's error handler, as a C structure that begins with libjpeg's own.
-struct Handler {
-    jpeg_error_mgr base;
-    std::jmp_buf failed;
-    bool pixels_missing;
-    char text[JMSG_LENGTH_MAX];
-};
-
-Handler* handler_of(j_common_ptr jpeg)
-{
-    return reinterpret_cast<Handler*>(jpeg->err);
-}
-
-/// The first message stays, unless a later one costs pixels.
-void keep_message(j_common_ptr jpeg, bool costs_pixels)
-{
-    Handler* const handler = handler_of(jpeg);
-    if (handler->text[0] == '\0' || (costs_pixels && !handler->pixels_missing))
-        jpeg->err->format_message(jpeg, handler->text);
-    handler->pixels_missing |= costs_pixels;
-}
 
 bool costs_pixels(int message)
 {
@@ -50,17 +28,24 @@ bool costs_pixels(int message)
     }
 }
 
-void on_message(j_common_ptr jpeg, int level)
-{
-    if (level < 0)
-        keep_message(jpeg, costs_pixels(jpeg->err->msg_code));
-}
+/// Decodes, and remembers what went wrong.
+struct DamageFinder : JpegDecompressor {
+    DamageFinder() : JpegDecompressor(note_warning) {}
 
-[[noreturn]] void on_error(j_common_ptr jpeg)
-{
-    keep_message(jpeg, true);
-    std::longjmp(handler_of(jpeg)->failed, 1);
-}
+    /// The first message stays, unless a later one costs pixels.
+    static void note_warning(JpegDecompressor& decompressor, int code)
+    {
+        auto& finder = static_cast<DamageFinder&>(decompressor);
+        const bool costs = costs_pixels(code);
+        if (finder.message[0] == '\0' || (costs && !finder.pixels_missing))
+            finder.keep_message();
+        finder.pixels_missing |= costs;
+    }
+
+    bool pixels_missing = false;
+    bool incomplete = false; ///< scans are missing
+    std::vector<JSAMPLE> row;
+};
 
 /// Whether all bits of all coefficients have come; a progressive file brings them scan by scan.
 bool has_all_scans(const jpeg_decompress_struct& jpeg)
@@ -74,19 +59,11 @@ bool has_all_scans(const jpeg_decompress_struct& jpeg)
     return true;
 }
 
-/// What outlives a jump out of libjpeg.
-struct Decoding {
-    jpeg_decompress_struct jpeg;
-    Handler handler;
-    std::vector<JSAMPLE> row;
-    bool incomplete;
-};
-
 /// False: libjpeg gave up.
-bool decode(Decoding& decoding, std::FILE* file)
+bool decode(DamageFinder& finder, std::FILE* file)
 {
-    jpeg_decompress_struct& jpeg = decoding.jpeg;
-    if (setjmp(decoding.handler.failed) != 0)
+    jpeg_decompress_struct& jpeg = finder.info;
+    if (setjmp(finder.failed) != 0)
         return false;
     jpeg_create_decompress(&jpeg);
     jpeg_stdio_src(&jpeg, file);
@@ -98,11 +75,11 @@ bool decode(Decoding& decoding, std::FILE* file)
         while (!jpeg_input_complete(&jpeg))
             if (jpeg_consume_input(&jpeg) == JPEG_SUSPENDED)
                 break;
-        decoding.incomplete = !has_all_scans(jpeg);
+        finder.incomplete = !has_all_scans(jpeg);
         return true;
     }
-    decoding.row.resize(std::size_t(jpeg.output_width) * static_cast<std::size_t>(jpeg.output_components));
-    JSAMPROW rows[1] = { decoding.row.data() };
+    finder.row.resize(std::size_t(jpeg.output_width) * static_cast<std::size_t>(jpeg.output_components));
+    JSAMPROW rows[1] = { finder.row.data() };
     while (jpeg.output_scanline < jpeg.output_height)
         jpeg_read_scanlines(&jpeg, rows, 1);
     return true;
@@ -118,15 +95,12 @@ JpegDamage find_jpeg_damage(const std::string& path)
     const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
     if (!file)
         return { true, "cannot be read" };
-    Decoding decoding{};
-    decoding.jpeg.err = jpeg_std_error(&decoding.handler.base);
-    decoding.handler.base.emit_message = on_message;
-    decoding.handler.base.error_exit = on_error;
-    const bool whole = decode(decoding, file.get());
-    jpeg_destroy_decompress(&decoding.jpeg);
-    if (whole && decoding.incomplete && !decoding.handler.pixels_missing)
+    DamageFinder finder;
+    if (!decode(finder, file.get()))
+        return { true, finder.message };
+    if (finder.incomplete && !finder.pixels_missing)
         return { true, "breaks off before its last scan" };
-    return { decoding.handler.pixels_missing, decoding.handler.text };
+    return { finder.pixels_missing, finder.message };
 }
 
 } // namespace srisp

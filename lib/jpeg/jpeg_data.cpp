@@ -1,60 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/jpeg_data.h"
+#include "jpeg/jpeg_data.h"
 
-#include <csetjmp>
-#include <cstdio> // jpeglib.h needs it
+#include "jpeg/jpeg_decompressor.h"
 
 #include <jerror.h>
-#include <jpeglib.h>
 
 namespace srisp {
 
 namespace {
 
-/// What libjpeg calls back, and where to go on after an error: it is C, which exceptions must not cross.
-struct Complaints {
-    jpeg_error_mgr manager; // first: libjpeg knows the address of this one
-    std::jmp_buf stop;
-    char message[JMSG_LENGTH_MAX];
-};
-
-[[noreturn]] void stop_decoding(j_common_ptr info)
-{
-    auto* complaints = reinterpret_cast<Complaints*>(info->err);
-    complaints->manager.format_message(info, complaints->message);
-    std::longjmp(complaints->stop, 1);
-}
-
 /// Most warnings say that pixels are made up. Bytes between markers and a missing end marker harm none.
-void judge_warning(j_common_ptr info, int level)
+void judge_warning(JpegDecompressor& decompressor, int code)
 {
-    const int code = info->err->msg_code;
-    if (level < 0 && code != JWRN_EXTRANEOUS_DATA && code != JWRN_JPEG_EOF)
-        stop_decoding(info);
+    if (code != JWRN_EXTRANEOUS_DATA && code != JWRN_JPEG_EOF)
+        decompressor.fail();
 }
 
-struct Decompressor {
-    jpeg_decompress_struct info{};
-    Complaints complaints{};
-
-    Decompressor()
-    {
-        info.err = jpeg_std_error(&complaints.manager);
-        complaints.manager.error_exit = stop_decoding;
-        complaints.manager.emit_message = judge_warning;
-        complaints.manager.output_message = [](j_common_ptr) {};
-    }
-    ~Decompressor() { jpeg_destroy_decompress(&info); }
-    Decompressor(const Decompressor&) = delete;
-    Decompressor& operator=(const Decompressor&) = delete;
-};
-
-/// Holds nothing that longjmp would leave undestroyed. False: `complaints.message` says why.
-bool decode(Decompressor& decompressor, const unsigned char* data, std::size_t size, const JpegHeader& header,
+/// False: `message` says why.
+bool decode(JpegDecompressor& decompressor, const unsigned char* data, std::size_t size, const JpegHeader& header,
             unsigned char* target)
 {
     jpeg_decompress_struct& info = decompressor.info;
-    if (setjmp(decompressor.complaints.stop))
+    if (setjmp(decompressor.failed))
         return false;
     jpeg_create_decompress(&info);
     jpeg_mem_src(&info, data, static_cast<unsigned long>(size));
@@ -102,9 +69,9 @@ Expected<std::vector<unsigned char>> decode_jpeg(const unsigned char* data, std:
 {
     std::vector<unsigned char> pixels(std::size_t(header.width) * std::size_t(header.height) *
                                       std::size_t(header.components));
-    Decompressor decompressor;
+    JpegDecompressor decompressor(judge_warning);
     if (!decode(decompressor, data, size, header, pixels.data()))
-        return Error{ decompressor.complaints.message };
+        return Error{ decompressor.message };
     return pixels;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gain_map/jpeg_segments.h"
+#include "jpeg/jpeg_segments.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/file_type.h"
+#include "container/file_type.h"
 
 #include <doctest/doctest.h>
 
