@@ -37,6 +37,7 @@ install(TARGETS output_guard DESTINATION ${CMAKE_INSTALL_LIBDIR}/srisp)
 
 srisp_image_tool(srisppack srisp_base srisp_model srisp_recipe srisp_thumbnail srisp_container srisp_photo
     srisp_pack)
+target_link_libraries(srisppack_parts PUBLIC srisp_static) # load_reference, by its public header
 srisp_man_page(srisppack --help)
 
 srisp_image_tool(srispbake srisp_base srisp_photo srisp_ocio_static)
