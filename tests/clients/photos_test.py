@@ -367,6 +367,42 @@ def check_cut(folder, look):
         check(f"{cut.name}, srispbake refuses it", baked.returncode == 1 and not (folder / "cut.clf").exists())
 
 
+def enlarged(values, height, width):
+    """Bilinear, pixel centres on each other, edges repeated."""
+    for axis, size in ((0, height), (1, width)):
+        count = values.shape[axis]
+        at = np.clip((np.arange(size) + 0.5) * count / size - 0.5, 0, count - 1)
+        low = np.floor(at).astype(int)
+        weight = (at - low).reshape([-1 if i == axis else 1 for i in range(values.ndim)])
+        high = np.minimum(low + 1, count - 1)
+        values = np.take(values, low, axis) * (1 - weight) + np.take(values, high, axis) * weight
+    return values
+
+
+def check_gain_map(folder, look):
+    """gainmap=apply against the formula of Ultra HDR 1, with the sample's map (2 stops, offsets of 1/64)."""
+    path = folder / "hdr.jpg"
+    run(build / "bin" / "ultra_hdr_sample", path)
+    whole = path.read_bytes()
+    (folder / "map.jpg").write_bytes(whole[whole.rfind(b"\xff\xd8\xff"):])
+    photo = np.asarray(Image.open(path).convert("RGB"), np.float64) / 255
+    gain = enlarged(np.asarray(Image.open(folder / "map.jpg").convert("L"), np.float64) / 255, *photo.shape[:2])
+    light = (to_linear(photo) + 1 / 64) * 4 ** gain[..., None] - 1 / 64
+    headroom = np.maximum(light.max(2, keepdims=True), 1)
+    base = folder / "headroom.png"
+    write_png(base, np.rint(from_linear(light / headroom) * 65535).astype(np.uint16), png_chunk(b"sRGB", b"\0"))
+    expected = by_tool(base, look) * headroom
+    found = pixels_of(f"{path}.srisp?params={look}&gainmap=apply")
+    check("gainmap=apply exceeds 1", found.max() > 1.5, f"largest {found.max()}")
+    # Decoders of JPEG differ by one step.
+    check("gainmap=apply", np.abs(found - expected).mean() < 0.004, f"differs by {np.abs(found - expected).mean()}")
+    refused = run(TOOL, path, "--addc", "0", f"--srisp-unprocess:params={look}:gainmap=apply", "-", "-o", folder / "no.exr")
+    check("gainmap=apply after a command is refused", refused.returncode == 1 and "gainmap=apply" in refused.stderr)
+    told = run(TOOL, path, f"--srisp-unprocess:params={look}", "-", "-o", folder / "sdr.exr").stderr
+    check("a gain map that is not applied is told of", "holds a gain map (Ultra HDR)" in told, told)
+    check("the SDR rendition stays within 1", pixels_of(folder / "sdr.exr").max() <= 1)
+
+
 # -- varied photos -----------------------------------------------------------------------------------------------------
 
 
@@ -444,6 +480,7 @@ with tempfile.TemporaryDirectory() as name:
     check_table(scratch)
     check_orientations(scratch)
     check_cut(scratch, scratch / "look.json")
+    check_gain_map(scratch, scratch / "look.json")
     check_varied(scratch, scratch / "look.json")
 print(f"{checks - failures} passed, {failures} failed")
 sys.exit(1 if failures else 0)
