@@ -8,6 +8,9 @@ namespace srisp {
 /// How many of a file's first bytes `reader_name` wants to see.
 constexpr std::size_t kReaderHeadBytes = 132;
 
+/// OpenImageIO's reader of RAW files, which is LibRaw's.
+constexpr char kRawReader[] = "raw";
+
 /// Which of OpenImageIO's readers a file is for: what its first bytes say, or the ending of its name for the few
 /// formats that begin with nothing particular. A reader that gets another format's file may abort or hang. Empty: none.
 std::string reader_name(const std::string& head, const std::string& path);

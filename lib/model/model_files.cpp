@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "base/near_names.h"
-#include "base/shared_folder.h"
+#include "base/installed_files.h"
 
 namespace srisp {
 

@@ -35,6 +35,7 @@ const std::vector<Option>& option_table()
         { "seed", kProgram | kQuery | files | kUnprocess | kParams, T::number, &Recipe::seed, {}, "0", "N",
           "for the choice among several references" },
         { "allow_partial", kProgram | kQuery | files, T::flag, &Recipe::allow_partial, {}, "0", "", "" },
+        { "isolate", kProgram | kQuery | files, T::flag, &Recipe::isolate, {}, "1", "", "" },
         { "direction", kQuery | files, T::choice, &Recipe::direction, { "reverse", "forward" }, "reverse", "", "" },
         { "lazy", kQuery, T::flag, &Recipe::lazy, {}, "0", "", "" },
         { "source", files, T::path, &Recipe::source, {}, "", "", "" },

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/tiff_tags.h"
+#include "raw_file/tiff_tags.h"
 
 namespace srisp {
 

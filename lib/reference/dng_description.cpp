@@ -7,7 +7,7 @@
 
 #include "jpeg/jpeg_data.h"
 #include "reference/tiff_raw.h"
-#include "reference/tiff_tags.h"
+#include "raw_file/tiff_tags.h"
 
 namespace srisp {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "raw_file/libraw_traps.h"
 #include "reference/raw_stream.h"
 #include "reference/tiff_raw.h"
 
@@ -218,6 +219,8 @@ Expected<RawImage> decode_with_libraw(const FileBytes& file, const DngDescriptio
         RawStream stream;
         LibRaw raw{ LIBRAW_OPIONS_NO_MEMERR_CALLBACK | LIBRAW_OPIONS_NO_DATAERR_CALLBACK };
     };
+    if (Status status = check_libraw_traps(file); !status)
+        return status.error();
     if (Status status = dng ? Status() : check_tiff_raw(file); !status)
         return status.error();
     const auto decoder = std::make_shared<Decoder>(file);

@@ -13,7 +13,7 @@
 #include "container/file_type.h"
 #include "recipe/reference_pattern.h"
 #include "reference/decoders.h"
-#include "reference/raw_pixels.h"
+#include "reference/raw_reference.h"
 #include "reference/sample_layout.h"
 #include "reference/tiff_raw.h"
 
@@ -39,27 +39,7 @@ Status check_brightness(const Thumbnail& thumbnail)
     return Error{ text };
 }
 
-Reference reference_of(const RawImage& image, const std::string& hash)
-{
-    return { "", "", hash, oriented(raw_thumbnail(image.pixels), image.facts.orientation), image.facts, image.notes };
-}
-
-/// From a RAW file; all but name and path.
-Expected<Reference> load_raw(const FileBytes& file)
-{
-    const auto image = decode_raw(file);
-    if (!image)
-        return image.error();
-    return reference_of(*image, hash_of_bytes(file.data.get(), file.size));
-}
-
-Expected<Reference> load_raw(const std::string& path)
-{
-    const auto file = read_whole_file(path);
-    return file ? load_raw(*file) : file.error();
-}
-
-/// The same from plain samples that a file beside them describes.
+/// All but name and path, from plain samples that a file beside them describes.
 Expected<Reference> load_samples(const std::string& path, const SampleLayout& layout)
 {
     const auto file = read_whole_file(path);
@@ -85,17 +65,17 @@ Expected<Reference> load_linear(const std::string& path, const std::string& form
 }
 
 /// From a TIFF without the extension of a RAW file.
-Expected<Reference> load_tiff(const std::string& path)
+Expected<Reference> load_tiff(const std::string& path, bool isolate)
 {
     // A TIFF of ours is no RAW whatever LibRaw thinks.
     auto linear = load_linear(path, "tiff");
     if (linear)
         return linear;
+    auto raw = load_raw(path, isolate);
+    if (raw)
+        return raw;
     const auto file = read_whole_file(path);
-    if (!file)
-        return file.error();
-    auto raw = load_raw(*file);
-    return raw || !tiff_raw_name(*file).empty() ? raw : linear;
+    return file && !tiff_raw_name(*file).empty() ? raw : linear;
 }
 
 /// From a file in which neither we nor LibRaw know a header.
@@ -112,7 +92,7 @@ Expected<Reference> load_headerless(const std::string& path)
                   "\"white\": 1023}" };
 }
 
-Expected<Reference> load_by_type(const FileType& type, const std::string& path)
+Expected<Reference> load_by_type(const FileType& type, const std::string& path, bool isolate)
 {
     switch (type.kind) {
     case FileKind::display_encoded:
@@ -126,13 +106,13 @@ Expected<Reference> load_by_type(const FileType& type, const std::string& path)
         return load_linear(path, "openexr");
     case FileKind::tiff:
         // Most RAW formats are TIFF inside, some (Canon 1D) even by name.
-        return has_raw_extension(path) ? load_raw(path) : load_tiff(path);
+        return has_raw_extension(path) ? load_raw(path, isolate) : load_tiff(path, isolate);
     case FileKind::headerless:
         return load_headerless(path);
     case FileKind::raw:
         break;
     }
-    return load_raw(path);
+    return load_raw(path, isolate);
 }
 
 /// The file's type. Plain samples may begin with the two bytes of a BMP: what is called RAW and described is no photo.
@@ -149,14 +129,14 @@ FileType type_of(const std::string& head, const std::string& path)
 
 } // namespace
 
-Expected<std::shared_ptr<const Reference>> load_reference(const std::string& path)
+Expected<std::shared_ptr<const Reference>> load_reference(const std::string& path, bool isolate)
 {
     const auto fail = [&](const std::string& reason) { return Error{ "reference '" + path + "': " + reason }; };
     try {
         const auto head = read_head(path, kHeadBytes);
         if (!head)
             return fail(head.error().message);
-        auto reference = load_by_type(type_of(*head, path), path);
+        auto reference = load_by_type(type_of(*head, path), path, isolate);
         if (!reference)
             return fail(reference.error().message);
         if (Status status = check_brightness(reference->thumbnail); !status)

@@ -14,13 +14,13 @@ std::string reference_state(const std::string& path)
     return state;
 }
 
-Expected<std::shared_ptr<const Reference>> load_reference_cached(const std::string& path)
+Expected<std::shared_ptr<const Reference>> load_reference_cached(const std::string& path, bool isolate)
 {
     constexpr std::size_t kMostKept = 64; // 0.8 MB each
     // Never destroyed: other threads of the host may still read while statics end.
     static auto& kept = *new RecentlyKept<std::shared_ptr<const Reference>>(kMostKept);
     try {
-        return kept.get(reference_state(path), [&] { return load_reference(path); });
+        return kept.get(reference_state(path), [&] { return load_reference(path, isolate); });
     } catch (const std::exception& failed) {
         return Error{ "reference '" + path + "': " + failed.what() };
     }

@@ -6,7 +6,7 @@
 
 #include <libraw/libraw_version.h>
 
-#include "reference/tiff_tags.h"
+#include "raw_file/tiff_tags.h"
 
 namespace srisp {
 

@@ -100,7 +100,7 @@ Expected<ChoicePtr> Chooser::choose(PixelSource& source, int subimage, const OII
 Expected<ChoicePtr> Chooser::select_new(PixelSource& source, int subimage, const OIIO::ImageSpec& stored,
                                         const PhotoConverter& converter, int threads) const
 {
-    auto reference = load_reference_cached(m_reference);
+    auto reference = load_reference_cached(m_reference, m_recipe.isolate);
     if (!reference)
         return reference.error();
     auto choice = std::make_shared<Choice>(Choice{ m_model, {}, *reference, (*reference)->notes });

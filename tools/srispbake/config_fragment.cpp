@@ -10,7 +10,7 @@
 #include "../common/failure.h"
 #include "base/file_bytes.h"
 #include "base/output_file.h"
-#include "base/shared_folder.h"
+#include "base/installed_files.h"
 #include "config_text.h"
 #include "linear_srgb.h"
 

@@ -45,12 +45,13 @@ struct Options {
     Precision precision = Precision::float32;
     GainMapUse gain_map = GainMapUse::ignore;
     bool allow_partial = false; ///< a photo that breaks off is taken as far as it goes, with a note
+    bool isolate = true;        ///< RAW files are decoded by a program of their own (load_reference)
     std::uint64_t seed = 0;     ///< with the photo's name it says which of several references is taken
 };
 
 /// Sets one option by its name, as a query, a recipe and srisptool do: model, params (the path of a JSON file), input
-/// (auto, srgb, linear), precision (float32, fast), seed, gainmap (ignore, apply),
-/// allow_partial (0, 1). /// Errors: unknown keys and values (the near ones listed), a file that cannot be read.
+/// (auto, srgb, linear), precision (float32, fast), seed, gainmap (ignore, apply), allow_partial (0, 1), isolate (0,
+/// 1). Errors: unknown keys and values (the near ones listed), a file that cannot be read.
 SRISP_API Status set_option(Options& options, const std::string& key, const std::string& value);
 
 } // namespace srisp

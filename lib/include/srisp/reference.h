@@ -30,7 +30,9 @@ struct Reference {
 /// images, filters of other than three colours, Foveon, monochrome, X-Trans where LibRaw does not decode it, files
 /// that LibRaw would know by their size alone, black frames (98th percentile below 0.005), truncated files, empty
 /// areas. [P 4.2; DNG 1.4]
-SRISP_API Expected<std::shared_ptr<const Reference>> load_reference(const std::string& path);
+/// `isolate`: RAW files are decoded by a program of their own, srispdecode, so that one that is damaged, or made to do
+/// harm, crashes or delays that and not the caller; some 10 to 30 ms more (docs/performance.md).
+SRISP_API Expected<std::shared_ptr<const Reference>> load_reference(const std::string& path, bool isolate = true);
 
 /// Chooses one file where `pattern` names several: a folder, a glob, or a list (`a.dng;b.dng`); a plain file is itself,
 /// and so is any name that exists. The choice depends on `seed` and `photo_name` only (the base name is used), not on
@@ -46,6 +48,7 @@ SRISP_API Expected<std::string> choose_reference(const std::vector<std::string>&
 SRISP_API std::string reference_state(const std::string& path);
 
 /// `load_reference` with a cache for the whole process: key is the reference's state.
-SRISP_API Expected<std::shared_ptr<const Reference>> load_reference_cached(const std::string& path);
+SRISP_API Expected<std::shared_ptr<const Reference>> load_reference_cached(const std::string& path,
+                                                                           bool isolate = true);
 
 } // namespace srisp

@@ -8,7 +8,7 @@
 #include "base/input_file.h"
 #include "base/json_object.h"
 #include "base/near_names.h"
-#include "base/shared_folder.h"
+#include "base/installed_files.h"
 #include "model/safetensors.h"
 
 namespace srisp::train {

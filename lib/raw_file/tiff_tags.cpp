@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/tiff_tags.h"
+#include "raw_file/tiff_tags.h"
 
 #include <algorithm>
 #include <cstring>
@@ -9,6 +9,7 @@ namespace srisp {
 namespace {
 
 constexpr std::size_t kMostFolders = 64;        // real files have under 20
+constexpr int kMostDepth = 2;                   // DNG nests one level
 constexpr std::uint32_t kMostValues = 1u << 20; // the longest that we read: strip offsets, one per row
 constexpr std::uint16_t kSubFolders = 330, kExifFolder = 34665;
 
@@ -27,15 +28,33 @@ const TiffTag* TiffFolder::find(std::uint16_t tag) const
     return found == tags.end() ? nullptr : &*found;
 }
 
+/// Whether a file is a TIFF, or one in all but its number: Olympus, Panasonic.
+static bool is_tiff(const unsigned char* data, std::size_t size)
+{
+    static const char* const kNumbers[] = { "II*\0", "MM\0*", "IIRO", "IIRS", "MMOR", "IIU\0" };
+    return size >= 8 && std::any_of(std::begin(kNumbers), std::end(kNumbers),
+                                    [&](const char* number) { return std::memcmp(data, number, 4) == 0; });
+}
+
 TiffTags::TiffTags(const unsigned char* data, std::size_t size) : m_data(data), m_size(size)
 {
-    if (size < 8 || (std::memcmp(data, "II*\0", 4) != 0 && std::memcmp(data, "MM\0*", 4) != 0))
+    if (!is_tiff(data, size))
         return;
     m_little = data[0] == 'I';
     read_chain(std::uint32_t(integer(4, 4)), 0);
     for (const TiffFolder& folder : m_folders)
-        if (m_exif.tags.empty() && folder.find(kExifFolder))
-            read_folder(std::size_t(value(folder, kExifFolder, 0)), m_exif);
+        if (m_exif.tags.empty())
+            m_exif = linked_folder(folder, kExifFolder);
+}
+
+TiffFolder TiffTags::linked_folder(const TiffFolder& folder, std::uint16_t tag) const
+{
+    TiffFolder linked;
+    if (folder.find(tag)) {
+        linked.offset = std::uint32_t(value(folder, tag, 0));
+        read_folder(linked.offset, linked);
+    }
+    return linked;
 }
 
 std::uint64_t TiffTags::integer(std::size_t offset, int bytes) const
@@ -70,17 +89,30 @@ std::uint32_t TiffTags::read_folder(std::size_t offset, TiffFolder& folder) cons
 
 void TiffTags::read_chain(std::uint32_t offset, int depth)
 {
-    while (offset != 0 && m_folders.size() < kMostFolders &&
-           std::find(m_seen.begin(), m_seen.end(), offset) == m_seen.end()) {
+    const auto among = [&](const std::vector<std::uint32_t>& offsets) {
+        return std::find(offsets.begin(), offsets.end(), offset) != offsets.end();
+    };
+    const std::size_t path = m_path.size();
+    while (offset != 0 && !among(m_seen)) {
+        if (m_folders.size() == kMostFolders) {
+            m_problem = "its TIFF has more than " + std::to_string(kMostFolders) + " folders of tags";
+            return;
+        }
         m_seen.push_back(offset);
+        m_path.push_back(offset);
         TiffFolder folder;
         folder.offset = offset;
         offset = read_folder(offset, folder);
         m_folders.push_back(folder);
-        if (depth < 2) // DNG nests one level
-            for (const double child : values(folder, kSubFolders))
-                read_chain(std::uint32_t(child), depth + 1);
+        const std::vector<double> children = values(folder, kSubFolders);
+        if (depth == kMostDepth && !children.empty())
+            m_problem = "its TIFF has folders of tags nested more than " + std::to_string(kMostDepth) + " deep";
+        for (std::size_t i = 0; i < children.size() && depth < kMostDepth; ++i)
+            read_chain(std::uint32_t(children[i]), depth + 1);
     }
+    if (offset != 0 && among(m_path))
+        m_problem = "its TIFF's folders of tags form a loop";
+    m_path.resize(path);
 }
 
 double TiffTags::number(const TiffTag& tag, std::uint32_t index) const

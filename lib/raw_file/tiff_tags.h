@@ -26,13 +26,19 @@ struct TiffFolder {
 /// chains end; what does not fit is left out, so damaged files give fewer tags, never a crash.
 class TiffTags {
 public:
-    /// `data` must outlive this object. Classic TIFF of either byte order; anything else has no folders.
+    /// `data` must outlive this object. Classic TIFF of either byte order, and what differs from it by its number alone
+    /// (Olympus, Panasonic); anything else has no folders.
     TiffTags(const unsigned char* data, std::size_t size);
 
     /// The first folder, its SubIFDs, then the next folder of the chain and so on.
     const std::vector<TiffFolder>& folders() const { return m_folders; }
     /// The Exif folder; without tags if there is none.
     const TiffFolder& exif() const { return m_exif; }
+    /// The folder whose offset is a tag's value; without tags if there is none.
+    TiffFolder linked_folder(const TiffFolder& folder, std::uint16_t tag) const;
+    /// What no program should follow, though this one can: folders in a loop, too many, or too deeply nested; else
+    /// empty.
+    const std::string& problem() const { return m_problem; }
 
     /// All values of a tag as numbers (at most 1 Mi); empty if the tag is missing or no number. n/0 gives 0.
     std::vector<double> values(const TiffFolder& folder, std::uint16_t tag) const;
@@ -54,7 +60,9 @@ private:
     bool m_little = true;
     std::vector<TiffFolder> m_folders;
     std::vector<std::uint32_t> m_seen; ///< offsets of folders that were read
+    std::vector<std::uint32_t> m_path; ///< of the chain that is being read, and of those that it hangs on
     TiffFolder m_exif;
+    std::string m_problem;
 };
 
 } // namespace srisp
