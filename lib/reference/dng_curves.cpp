@@ -11,6 +11,7 @@ namespace srisp {
 namespace {
 
 constexpr unsigned kMapTable = 7, kMapPolynomial = 8;
+constexpr std::size_t kMostCurves = 64; // one per plane in real files; each has a table of 256 KiB
 constexpr std::size_t kAreaBytes = 32, kMostEntries = 65536, kMostCoefficients = 9;
 constexpr int kSteps = 65536;
 
@@ -83,7 +84,8 @@ DngCurves::DngCurves(const std::string& list)
 
 bool DngCurves::add(unsigned opcode, const std::string& parameters)
 {
-    if ((opcode != kMapTable && opcode != kMapPolynomial) || parameters.size() < kAreaBytes + 4)
+    if ((opcode != kMapTable && opcode != kMapPolynomial) || parameters.size() < kAreaBytes + 4 ||
+        m_curves.size() == kMostCurves)
         return false;
     const auto number = [&](std::size_t index) { return double(integer(parameters, 4 * index, 4)); };
     Curve curve{ number(0), number(1), number(2), number(3), number(4), number(5), number(6), number(7), {} };

@@ -250,6 +250,25 @@ TEST_CASE("Damaged opcode lists give no curves, and say so")
     }
 }
 
+TEST_CASE("Of a list of curves without end the first 64 are taken, in no more memory than these need")
+{
+    std::vector<double> numbers;
+    const int count = 200'000; // tables of 48 GiB
+    append(numbers, count, 4);
+    for (int i = 0; i < count; ++i) {
+        append(numbers, 7, 4);
+        append(numbers, 0, 8);
+        append(numbers, 36 + 2, 4);
+        for (const int area : { 0, 0, 10, 10, 0, 1, 1, 1 })
+            append(numbers, std::uint64_t(area), 4);
+        append(numbers, 1, 4);
+        append(numbers, 65535, 2);
+    }
+    const DngCurves curves(std::string(numbers.begin(), numbers.end()));
+    CHECK(!curves.complete());
+    CHECK(!curves.empty());
+}
+
 TEST_CASE("A map table of 16 bits is applied to its area and planes, and goes on with its last entry")
 {
     std::vector<double> numbers;
