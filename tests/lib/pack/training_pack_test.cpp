@@ -86,7 +86,7 @@ TEST_CASE("a training pack is read back as it was written")
     CHECK(photos.entries[2].open);
     CHECK(photos.entries[2].licence == "CC0");
     CHECK(photos.entries[2].white_balance[1] == 0);
-    CHECK(photos.image(2)[5] == std::uint16_t((2 * kImage + 5) * 7));
+    CHECK((*photos.image(2))[5] == std::uint16_t((2 * kImage + 5) * 7));
     const PackEntry& raw = (*pack)->raws().entries.at(0);
     CHECK(raw.validation);
     CHECK(raw.group == "Nikon D1");
