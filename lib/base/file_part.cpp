@@ -6,6 +6,15 @@
 
 namespace srisp {
 
+Expected<RegularFile> open_for_parts(const std::string& path)
+{
+    auto file = RegularFile::open(path);
+    const std::string reason = !file ? file.error().message : file->size() == 0 ? "is empty" : "";
+    if (reason.empty())
+        return file;
+    return Error{ "'" + path + "' " + (reason.rfind("is ", 0) == 0 ? "" : "cannot be opened: ") + reason };
+}
+
 Status read_bytes(const RegularFile& file, void* target, std::size_t offset, std::size_t size)
 {
     const long long got = file.read(target, offset, size);

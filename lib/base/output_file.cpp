@@ -132,7 +132,7 @@ Status OutputFile::finish()
         fail("cannot be written");
     // Closing ends the lock, so that it comes last.
     if (m_error.empty() && !m_device && !place())
-        fail("cannot take its name");
+        fail("cannot be renamed from its temporary name");
     if (std::fclose(std::exchange(m_file, nullptr)) != 0)
         fail("cannot be written");
     return m_error.empty() ? Status() : Status(Error{ m_error });

@@ -20,10 +20,9 @@ constexpr std::uint64_t kMaxCamerasBytes = std::uint64_t(1) << 28;
 /// Opens a file of the pack, and checks that it is the one that the index means.
 Expected<RegularFile> open_file(const std::string& folder, const PackFile& file, const std::string& where)
 {
-    const std::string path = folder + "/" + file.name;
-    Expected<RegularFile> opened = RegularFile::open(path);
+    Expected<RegularFile> opened = open_for_parts(folder + "/" + file.name);
     if (!opened)
-        return Error{ where + ": '" + path + "' cannot be read: " + opened.error().message };
+        return Error{ where + ": " + opened.error().message };
     if (opened->size() != file.bytes)
         return Error{ where + ": " + file.name + " has " + std::to_string(opened->size()) + " bytes, " +
                       kPackIndexName + " says " + std::to_string(file.bytes) +

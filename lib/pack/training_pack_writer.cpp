@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/file_part.h"
 #include "base/hashes.h"
 #include "base/input_file.h"
-#include "base/regular_file.h"
 #include "model/safetensors.h"
 
 namespace srisp {
@@ -22,13 +22,12 @@ constexpr std::size_t kHeaderRoom = 256;
 /// Size and hash of a file that is complete: read back, so that what is recorded is what is there.
 Expected<PackFile> describe_file(const std::string& path)
 {
-    const auto failed = [&](const Error& error) { return Error{ "'" + path + "' " + error.message }; };
-    const Expected<RegularFile> file = RegularFile::open(path);
+    const Expected<RegularFile> file = open_for_parts(path);
     if (!file)
-        return failed(file.error());
+        return file.error();
     const Expected<std::string> hash = xxh64_of_file(*file);
     if (!hash)
-        return failed(hash.error());
+        return Error{ "'" + path + "' " + hash.error().message };
     return PackFile{ fs::path(path).filename().string(), file->size(), *hash };
 }
 

@@ -110,9 +110,9 @@ Status read_raw_shape(LinearSet& set, const SafeTensorsHeader& header)
 Expected<std::shared_ptr<const LinearSet>> open_set(const std::string& path)
 {
     const std::string where = "set '" + path + "'";
-    Expected<RegularFile> file = RegularFile::open(path);
+    Expected<RegularFile> file = open_for_parts(path);
     if (!file)
-        return Error{ where + " cannot be read: " + file.error().message };
+        return Error{ "set " + file.error().message };
     auto set = std::make_shared<LinearSet>(std::move(*file), where);
     const Expected<SafeTensorsHeader> header = read_safetensors_header(set->file, { "F16", "F32", "U8" }, set->where);
     if (!header)

@@ -12,10 +12,13 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <climits>
@@ -45,12 +48,44 @@ template<class Function> Function* original(const char* name)
     return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 
+/// Says which output it was, for srisptool to tell (messages.h): oiiotool's own words lack the reason, or the name.
+void report_failure(int file)
+{
+    const char* const stream = std::getenv(srisp::tool::kGuardStreamVariable);
+    char path[PATH_MAX];
+    const ssize_t length = readlink(("/proc/self/fd/" + std::to_string(file)).c_str(), path, sizeof path);
+    if (!stream || length <= 0 || !is_unfinished_output({ path, std::size_t(length) }))
+        return;
+    std::string line = srisp::tool::kGuardFailure + std::string(std::strerror(write_error)) + ": ";
+    line.append(path, std::size_t(length));
+    std::replace(line.begin(), line.end(), '\n', '?');
+    line += '\n';
+    static const auto write_file = original<ssize_t(int, const void*, size_t)>("write");
+    if (write_file(std::atoi(stream), line.data(), line.size()) < 0)
+        return; // nobody is there to be told
+}
+
 void note_failure(int file)
 {
-    const bool no_space = errno == ENOSPC || errno == EDQUOT || errno == EFBIG || errno == EIO;
+    const int saved = errno;
+    const bool no_space = saved == ENOSPC || saved == EDQUOT || saved == EFBIG || saved == EIO;
     int none = 0;
-    if (no_space && file > STDERR_FILENO)
-        write_error.compare_exchange_strong(none, errno);
+    if (no_space && file > STDERR_FILENO && write_error.compare_exchange_strong(none, saved))
+        report_failure(file);
+    errno = saved;
+}
+
+/// The errno of a write that failed where that is gone.
+int likely_reason(int file)
+{
+    struct statvfs disk;
+    struct stat info;
+    rlimit limit;
+    if (fstatvfs(file, &disk) == 0 && disk.f_bavail == 0)
+        return ENOSPC;
+    const bool at_limit = getrlimit(RLIMIT_FSIZE, &limit) == 0 && fstat(file, &info) == 0 &&
+                          limit.rlim_cur != RLIM_INFINITY && rlim_t(info.st_size) >= limit.rlim_cur;
+    return at_limit ? EFBIG : EIO;
 }
 
 void list_output(const char* path)
@@ -164,8 +199,7 @@ GUARDED int fclose(FILE* stream)
     static const auto next = original<int(FILE*)>("fclose");
     const int file = fileno(stream);
     if (ferror(stream) && (fcntl(file, F_GETFL) & O_ACCMODE) != O_RDONLY) {
-        struct statvfs disk; // the errno of the write that failed is gone
-        errno = fstatvfs(file, &disk) == 0 && disk.f_bavail == 0 ? ENOSPC : EIO;
+        errno = likely_reason(file);
         note_failure(file);
     }
     const int result = next(stream);

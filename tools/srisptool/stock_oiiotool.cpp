@@ -209,6 +209,7 @@ int run_rewritten(const std::string& program, const std::vector<Step>& steps)
     fs::create_symlink(plugins / "output_guard.so", folder.path() / kGuardLink);
     set_variable(environment, "LD_PRELOAD", (folder.path() / kGuardLink).string(), true);
     set_variable(environment, kGuardListVariable, (folder.path() / kStartedOutputs).string());
+    set_variable(environment, kGuardStreamVariable, std::to_string(error_stream(steps)));
     // Where the plugin shows its progress: its stderr is a pipe.
     if (options.progress)
         set_variable(environment, kTerminalVariable, std::to_string(dup(STDERR_FILENO)));
