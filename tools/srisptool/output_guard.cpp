@@ -13,7 +13,6 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -79,13 +78,10 @@ void note_failure(int file)
 int likely_reason(int file)
 {
     struct statvfs disk;
-    struct stat info;
     rlimit limit;
     if (fstatvfs(file, &disk) == 0 && disk.f_bavail == 0)
         return ENOSPC;
-    const bool at_limit = getrlimit(RLIMIT_FSIZE, &limit) == 0 && fstat(file, &info) == 0 &&
-                          limit.rlim_cur != RLIM_INFINITY && rlim_t(info.st_size) >= limit.rlim_cur;
-    return at_limit ? EFBIG : EIO;
+    return getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY ? EFBIG : EIO;
 }
 
 void list_output(const char* path)
