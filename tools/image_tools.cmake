@@ -24,7 +24,8 @@ file(CREATE_LINK ../../bin/srisptool ${PROJECT_BINARY_DIR}/libexec/srisp/oiiotoo
 install(PROGRAMS ${PROJECT_BINARY_DIR}/libexec/srisp/oiiotool DESTINATION ${SRISP_LIBEXEC_DIR})
 
 # Loaded into the stock oiiotool, which knows no sanitizers.
-add_library(output_guard MODULE srisptool/output_guard.cpp ${PROJECT_SOURCE_DIR}/lib/base/png_orientation.cpp)
+add_library(output_guard MODULE srisptool/output_guard.cpp common/unfinished_output.cpp
+    ${PROJECT_SOURCE_DIR}/lib/base/png_orientation.cpp ${PROJECT_SOURCE_DIR}/lib/base/device_output.cpp)
 target_include_directories(output_guard PRIVATE ${PROJECT_SOURCE_DIR}/lib)
 set_target_properties(output_guard PROPERTIES PREFIX ""
     LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/srisp)

@@ -9,8 +9,10 @@
 
 namespace srisp {
 
-/// A file that appears under its name only when it is complete: it is written to a temporary name in the same folder,
-/// flushed to disk and renamed. What is not finished is removed. Errors, as `'path' cannot be created: reason`.
+/// A file that appears under its name only when it is complete: it is written without a name where the file system has
+/// that, else under a hidden one (unfinished.h), flushed to disk, and takes the place of what had the name, be that a
+/// link. What is not finished is gone. A device or pipe (device_output.h) is written to as it is. Errors, as `'path'
+/// cannot be created: reason`.
 class OutputFile {
 public:
     explicit OutputFile(std::string path);
@@ -30,10 +32,14 @@ public:
     Status finish();
 
 private:
+    int open();
+    bool place();
     void fail(const std::string& doing);
 
-    std::string m_path, m_temporary, m_error;
-    std::FILE* m_file;
+    std::string m_path, m_error;
+    std::string m_unfinished; ///< its name until it is finished; "": it has none, or is a device
+    bool m_device;
+    std::FILE* m_file = nullptr;
 };
 
 /// A whole file at once.

@@ -3,14 +3,14 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "base/unfinished.h"
 
 namespace srisp {
 
@@ -23,40 +23,7 @@ Error failure(const std::string& path, const std::string& why)
     return Error{ "'" + path + "' " + why };
 }
 
-/// An open, locked folder; -1 if another program holds the lock, or there is no such folder.
-int lock_folder(const std::string& path)
-{
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0)
-        return descriptor;
-    if (descriptor >= 0)
-        ::close(descriptor);
-    return -1;
-}
-
-std::string staging_prefix(const fs::path& target)
-{
-    return "." + target.filename().string() + ".partial-";
-}
-
-/// Folders that killed programs left: nobody holds their lock.
-void remove_leftovers(const fs::path& target)
-{
-    const std::string prefix = staging_prefix(target);
-    std::error_code error, ignored;
-    for (fs::directory_iterator entry(target.parent_path(), error), end; !error && entry != end;
-         entry.increment(error)) {
-        if (entry->path().filename().string().compare(0, prefix.size(), prefix) != 0)
-            continue;
-        const int lock = lock_folder(entry->path().string());
-        if (lock < 0)
-            continue;
-        fs::remove_all(entry->path(), ignored);
-        ::close(lock);
-    }
-}
-
-Status check_target(const fs::path& target, const std::string& marker, bool replace)
+Status check_target(const fs::path& target, const StagedFolder::Check& check, bool replace)
 {
     std::error_code error;
     if (!fs::exists(target, error)) {
@@ -69,15 +36,15 @@ Status check_target(const fs::path& target, const std::string& marker, bool repl
         return failure(target.string(), "exists and is not a folder");
     if (fs::is_empty(target, error))
         return {};
-    if (!fs::exists(target / marker, error))
-        return failure(target.string(), "exists and holds no " + marker + "; it is not replaced");
+    if (const Status status = check(target.string()); !status)
+        return failure(target.string(), "exists and " + status.error().message + "; it is not replaced");
     return replace ? Status() : failure(target.string(), "exists already; --replace makes it anew");
 }
 
 } // namespace
 
-StagedFolder::StagedFolder(std::string target, std::string path, int lock)
-    : m_target(std::move(target)), m_path(std::move(path)), m_lock(lock)
+StagedFolder::StagedFolder(std::string target, Check check, bool replace, std::string path, int lock)
+    : m_target(std::move(target)), m_path(std::move(path)), m_check(std::move(check)), m_replace(replace), m_lock(lock)
 {
 }
 
@@ -89,8 +56,7 @@ StagedFolder::~StagedFolder()
     ::close(m_lock);
 }
 
-Expected<std::unique_ptr<StagedFolder>> StagedFolder::create(const std::string& name, const std::string& marker,
-                                                             bool replace)
+Expected<std::unique_ptr<StagedFolder>> StagedFolder::create(const std::string& name, const Check& check, bool replace)
 {
     std::error_code error;
     fs::path target = fs::weakly_canonical(fs::absolute(name, error) / "", error);
@@ -98,23 +64,20 @@ Expected<std::unique_ptr<StagedFolder>> StagedFolder::create(const std::string& 
         return failure(name, "cannot be made: " + error.message());
     if (!target.has_filename())
         target = target.parent_path(); // "pack/" is "pack"
-    if (Status status = check_target(target, marker, replace); !status)
+    if (Status status = check_target(target, check, replace); !status)
         return status.error();
-    remove_leftovers(target);
-    std::string path = (target.parent_path() / (staging_prefix(target) + "XXXXXX")).string();
-    if (!::mkdtemp(path.data()))
-        return failure(target.string(), std::string("cannot be made: ") + std::strerror(errno));
-    const int lock = lock_folder(path);
-    if (lock < 0) {
-        ::rmdir(path.c_str());
-        return failure(path, std::string("cannot be locked: ") + std::strerror(errno));
-    }
-    return std::unique_ptr<StagedFolder>(new StagedFolder(target.string(), std::move(path), lock));
+    std::error_code ignored;
+    for_each_leftover(target, [&](const fs::path& leftover) { fs::remove_all(leftover, ignored); });
+    const Expected<Unfinished> made = make_unfinished_folder(target);
+    if (!made)
+        return failure(target.string(), "cannot be made: " + made.error().message);
+    return std::unique_ptr<StagedFolder>(
+        new StagedFolder(target.string(), check, replace, made->path, made->descriptor));
 }
 
 Status StagedFolder::publish()
 {
-    // mkdtemp's folder is for its owner only; this one shall be as others that the user makes.
+    // Until now it was for its owner only; it shall be as others that the user makes.
     const mode_t mask = ::umask(0);
     ::umask(mask);
     if (::chmod(m_path.c_str(), 0777 & ~mask) != 0 || ::fsync(m_lock) != 0)
@@ -126,6 +89,8 @@ Status StagedFolder::publish()
     }
     if (errno != ENOTEMPTY && errno != EEXIST)
         return failure(m_target, std::string("cannot be made: ") + std::strerror(errno));
+    if (const Status status = check_target(m_target, m_check, m_replace); !status) // others may have been at it
+        return status;
     // At no moment is there none, or half of one; the destructor removes the old one.
     if (::renameat2(AT_FDCWD, m_path.c_str(), AT_FDCWD, m_target.c_str(), RENAME_EXCHANGE) != 0)
         return failure(m_target, std::string("cannot be replaced: ") + std::strerror(errno));

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/file_part.h"
 #include "base/half_float.h"
 #include "base/json_object.h"
 #include "base/output_file.h"
@@ -120,17 +121,41 @@ std::string shape_text(const std::vector<std::int64_t>& shape)
     return text + "]";
 }
 
-Expected<SafeTensorsHeader> parse_safetensors_header(const char* bytes, std::uint64_t size,
-                                                     const std::vector<std::string>& types, const std::string& where)
+static Expected<std::uint64_t> header_length(const char* bytes, std::uint64_t size, const std::string& where)
 {
     if (size < 8)
         return Error{ where + ": not a safetensors file, it has " + std::to_string(size) +
                       " bytes, at least 8 needed" };
-    std::uint64_t header_bytes;
-    std::memcpy(&header_bytes, bytes, 8);
-    if (header_bytes > kMaxHeaderBytes || header_bytes > size - 8)
-        return Error{ where + ": header of " + std::to_string(header_bytes) + " bytes, file has " +
-                      std::to_string(size - 8) + " after the length (truncated, or not a safetensors file)" };
+    std::uint64_t length;
+    std::memcpy(&length, bytes, 8);
+    if (length > kMaxHeaderBytes || length > size - 8)
+        return Error{ where + ": header of " + std::to_string(length) + " bytes, file has " + std::to_string(size - 8) +
+                      " after the length (truncated, or not a safetensors file)" };
+    return length;
+}
+
+Expected<SafeTensorsHeader> read_safetensors_header(const RegularFile& file, const std::vector<std::string>& types,
+                                                    const std::string& where)
+{
+    std::string bytes(std::min<std::size_t>(file.size(), 8), '\0');
+    if (const Status status = read_bytes(file, bytes.data(), 0, bytes.size()); !status)
+        return Error{ where + ": " + status.error().message };
+    const auto length = header_length(bytes.data(), file.size(), where);
+    if (!length)
+        return length.error();
+    bytes.resize(8 + *length);
+    if (const Status status = read_bytes(file, bytes.data(), 0, bytes.size()); !status)
+        return Error{ where + ": " + status.error().message };
+    return parse_safetensors_header(bytes.data(), file.size(), types, where);
+}
+
+Expected<SafeTensorsHeader> parse_safetensors_header(const char* bytes, std::uint64_t size,
+                                                     const std::vector<std::string>& types, const std::string& where)
+{
+    const auto length = header_length(bytes, size, where);
+    if (!length)
+        return length.error();
+    const std::uint64_t header_bytes = *length;
     Expected<json> parsed = parse_json_object({ bytes + 8, bytes + 8 + header_bytes }, where, "header");
     if (!parsed)
         return parsed.error();

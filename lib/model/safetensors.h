@@ -8,6 +8,8 @@
 
 #include <srisp/expected.h>
 
+#include "base/regular_file.h"
+
 namespace srisp {
 
 /// Where a tensor lies in a safetensors file.
@@ -30,12 +32,16 @@ std::uint64_t safetensors_element_size(const std::string& type);
 /// "[3, 24]", for messages.
 std::string shape_text(const std::vector<std::int64_t>& shape);
 
-/// Parses the header of a file of `size` bytes at `bytes` (in memory or mapped); no tensor is touched. `types`: those
+/// Parses the header of a file of `size` bytes, which is at `bytes`; no tensor is touched. `types`: those
 /// that may occur. `where` starts every message ("model 'm.safetensors'"). Errors: header length beyond the file, not
 /// JSON, duplicate names, offsets outside the file, overlapping or with gaps, sizes that do not match shape and type,
 /// other types. (https://github.com/huggingface/safetensors, format)
 Expected<SafeTensorsHeader> parse_safetensors_header(const char* bytes, std::uint64_t size,
                                                      const std::vector<std::string>& types, const std::string& where);
+
+/// The same of a file on disk, of which no more is read.
+Expected<SafeTensorsHeader> read_safetensors_header(const RegularFile& file, const std::vector<std::string>& types,
+                                                    const std::string& where);
 
 /// A tensor as float32, row-major.
 struct Tensor {

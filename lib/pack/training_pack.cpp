@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/file_part.h"
 #include "base/hashes.h"
 #include "base/input_file.h"
 #include "model/safetensors.h"
@@ -14,24 +15,25 @@ namespace srisp {
 
 namespace {
 
-constexpr std::uint64_t kMaxIndexBytes = std::uint64_t(1) << 30; // some four million images
 constexpr std::uint64_t kMaxCamerasBytes = std::uint64_t(1) << 28;
 
-/// Maps a file of the pack, and checks that it is the one that the index means.
-Expected<MappedFile> open_file(const std::string& folder, const PackFile& file, const std::string& where)
+/// Opens a file of the pack, and checks that it is the one that the index means.
+Expected<RegularFile> open_file(const std::string& folder, const PackFile& file, const std::string& where)
 {
-    Expected<MappedFile> mapped = MappedFile::open(folder + "/" + file.name);
-    if (!mapped)
-        return Error{ where + ": " + mapped.error().message };
-    if (mapped->size() != file.bytes)
-        return Error{ where + ": " + file.name + " has " + std::to_string(mapped->size()) + " bytes, " +
+    Expected<RegularFile> opened = open_for_parts(folder + "/" + file.name);
+    if (!opened)
+        return Error{ where + ": " + opened.error().message };
+    if (opened->size() != file.bytes)
+        return Error{ where + ": " + file.name + " has " + std::to_string(opened->size()) + " bytes, " +
                       kPackIndexName + " says " + std::to_string(file.bytes) +
-                      (mapped->size() < file.bytes ? " (truncated?)" : "") };
-    const std::string hash = xxh64_of_bytes(mapped->data(), mapped->size());
-    if (hash != file.hash)
-        return Error{ where + ": " + file.name + " is damaged: its hash is " + hash + ", " + kPackIndexName + " says " +
-                      file.hash };
-    return mapped;
+                      (opened->size() < file.bytes ? " (truncated?)" : "") };
+    const Expected<std::string> hash = xxh64_of_file(*opened);
+    if (!hash)
+        return Error{ where + ": " + file.name + " " + hash.error().message };
+    if (*hash != file.hash)
+        return Error{ where + ": " + file.name + " is damaged: its hash is " + *hash + ", " + kPackIndexName +
+                      " says " + file.hash };
+    return opened;
 }
 
 Status check_pixels(const SafeTensorsHeader& header, const std::vector<std::int64_t>& shape, const std::string& where)
@@ -47,23 +49,27 @@ Status check_pixels(const SafeTensorsHeader& header, const std::vector<std::int6
     return {};
 }
 
-Status open_images(const std::string& folder, const PackImagesIndex& index, MappedFile& file, PackedImages& images,
+Status open_images(const std::string& folder, const PackImagesIndex& index, PackedImages& images,
                    const std::string& where)
 {
-    Expected<MappedFile> mapped = open_file(folder, index.file, where);
-    if (!mapped)
-        return mapped.error();
-    file = std::move(*mapped);
+    Expected<RegularFile> opened = open_file(folder, index.file, where);
+    if (!opened)
+        return opened.error();
+    const auto file = std::make_shared<const RegularFile>(std::move(*opened));
     images.size = index.size;
     images.entries = pack_entries(index);
     const std::string here = where + ": " + index.file.name;
-    const Expected<SafeTensorsHeader> header = parse_safetensors_header(file.data(), file.size(), { "U16" }, here);
+    const Expected<SafeTensorsHeader> header = read_safetensors_header(*file, { "U16" }, here);
     if (!header)
         return header.error();
     const std::int64_t size = index.size;
     if (Status status = check_pixels(*header, { std::int64_t(images.entries.size()), 3, size, size }, here); !status)
         return status;
-    images.pixels = reinterpret_cast<const std::uint16_t*>(file.data() + header->data_begin);
+    const std::size_t bytes = 3 * std::size_t(size) * std::size_t(size) * sizeof(std::uint16_t);
+    images.read = [file, here, bytes, begin = header->data_begin](std::size_t entry, std::uint16_t* values) {
+        const Status status = read_bytes(*file, values, begin + entry * bytes, bytes);
+        return status ? status : Status(Error{ here + " " + status.error().message });
+    };
     return {};
 }
 
@@ -113,14 +119,17 @@ private:
 Status open_cameras(const std::string& folder, const PackCamerasIndex& index, PackedCameras& cameras,
                     const std::string& where)
 {
-    const Expected<MappedFile> mapped = open_file(folder, index.file, where);
-    if (!mapped)
-        return mapped.error();
+    const Expected<RegularFile> opened = open_file(folder, index.file, where);
+    if (!opened)
+        return opened.error();
     const std::string here = where + ": " + index.file.name;
-    if (mapped->size() > kMaxCamerasBytes)
-        return Error{ here + " has " + std::to_string(mapped->size()) + " bytes, limit " +
+    if (opened->size() > kMaxCamerasBytes)
+        return Error{ here + " has " + std::to_string(opened->size()) + " bytes, limit " +
                       std::to_string(kMaxCamerasBytes) };
-    Expected<SafeTensors> file = parse_safetensors({ mapped->data(), mapped->size() }, here);
+    std::string bytes(opened->size(), '\0');
+    if (const Status status = read_bytes(*opened, bytes.data(), 0, bytes.size()); !status)
+        return Error{ here + " " + status.error().message };
+    Expected<SafeTensors> file = parse_safetensors(bytes, here);
     if (!file)
         return file.error();
     SpectraTaker spectra(std::move(*file), here);
@@ -146,8 +155,14 @@ Status open_cameras(const std::string& folder, const PackCamerasIndex& index, Pa
 
 } // namespace
 
+Expected<std::vector<std::uint16_t>> PackedImages::image(std::size_t entry) const
+{
+    std::vector<std::uint16_t> values(3 * std::size_t(size) * std::size_t(size));
+    const Status status = read(entry, values.data());
+    return status ? Expected<std::vector<std::uint16_t>>(std::move(values)) : status.error();
+}
+
 struct TrainingPack::State {
-    MappedFile photos_file, raws_file;
     PackedImages photos, raws;
     PackedCameras cameras;
     std::string hash;
@@ -164,7 +179,7 @@ Expected<std::shared_ptr<const TrainingPack>> TrainingPack::open(const std::stri
         return Error{ where + (std::filesystem::exists(folder, ignored) ? " is not a folder" : " does not exist") };
     if (!std::filesystem::exists(index_path, ignored))
         return Error{ where + " is not a training pack: it has no " + kPackIndexName };
-    const Expected<std::string> text = read_file(index_path, kMaxIndexBytes, where);
+    const Expected<std::string> text = read_file(index_path, kMaxPackIndexBytes, where);
     if (!text)
         return text.error();
     const Expected<PackIndex> index = parse_pack_index(*text, where);
@@ -175,9 +190,9 @@ Expected<std::shared_ptr<const TrainingPack>> TrainingPack::open(const std::stri
     state->hash = xxh64_of_bytes(text->data(), text->size());
     Status status;
     if (index->photos)
-        status = open_images(folder, *index->photos, state->photos_file, state->photos, where);
+        status = open_images(folder, *index->photos, state->photos, where);
     if (status && index->raws)
-        status = open_images(folder, *index->raws, state->raws_file, state->raws, where);
+        status = open_images(folder, *index->raws, state->raws, where);
     if (status && index->cameras)
         status = open_cameras(folder, *index->cameras, state->cameras, where);
     if (!status)

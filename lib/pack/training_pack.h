@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,11 +42,12 @@ struct PackEntry {
 struct PackedImages {
     int size = 0;
     std::vector<PackEntry> entries; ///< the crops of a scene follow each other, the whole image first
-    /// Memory-mapped: [entries, 3, size, size], value / 65535. Photos are display-encoded sRGB, raws linear camera RGB.
-    const std::uint16_t* pixels = nullptr;
+    /// Reads [3, size, size] values of an entry, value / 65535. Photos are display-encoded sRGB, raws linear camera
+    /// RGB. Errors, as "pack 'folder': …": the disk's own; the file was made shorter. Threads: safe.
+    std::function<Status(std::size_t entry, std::uint16_t* values)> read;
 
-    /// [3, size, size]
-    const std::uint16_t* image(std::size_t entry) const { return pixels + entry * 3 * std::size_t(size) * size; }
+    /// The same, in memory of its own.
+    Expected<std::vector<std::uint16_t>> image(std::size_t entry) const;
 };
 
 /// What cameras are simulated from. Spectra at kPackWavelengths wavelengths.
@@ -61,7 +63,7 @@ struct PackedCameras {
     std::vector<float> reflectance;
 };
 
-/// A pack that is open for reading; images stay on disk until they are touched. Threads: immutable, any number.
+/// A pack that is open for reading; images stay on disk until they are read. Threads: immutable, any number.
 class TrainingPack {
 public:
     /// Opens a pack and checks all of it: format, sizes and hashes of files, shapes, that numbers are finite. Errors

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pack/training_pack_writer.h"
 
+#include <algorithm>
 #include <filesystem>
 
+#include "base/file_part.h"
 #include "base/hashes.h"
 #include "base/input_file.h"
 #include "model/safetensors.h"
 
 namespace srisp {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -18,11 +22,13 @@ constexpr std::size_t kHeaderRoom = 256;
 /// Size and hash of a file that is complete: read back, so that what is recorded is what is there.
 Expected<PackFile> describe_file(const std::string& path)
 {
-    const Expected<MappedFile> file = MappedFile::open(path);
+    const Expected<RegularFile> file = open_for_parts(path);
     if (!file)
         return file.error();
-    return PackFile{ std::filesystem::path(path).filename().string(), file->size(),
-                     xxh64_of_bytes(file->data(), file->size()) };
+    const Expected<std::string> hash = xxh64_of_file(*file);
+    if (!hash)
+        return Error{ "'" + path + "' " + hash.error().message };
+    return PackFile{ fs::path(path).filename().string(), file->size(), *hash };
 }
 
 std::string pixels_header(std::size_t images, int size)
@@ -70,9 +76,38 @@ Expected<PackImagesIndex> PackImagesWriter::finish()
     return std::move(m_index);
 }
 
+/// Whether a folder holds a pack and nothing else. The error says what is wrong: "holds no pack.json".
+static Status check_pack_folder(const std::string& folder)
+{
+    const fs::path path = fs::path(folder) / kPackIndexName;
+    std::error_code error;
+    if (!fs::exists(path, error))
+        return Error{ std::string("holds no ") + kPackIndexName };
+    const std::string where = "holds no pack";
+    const Expected<std::string> text = read_file(path.string(), kMaxPackIndexBytes, where);
+    const Expected<PackIndex> index = text ? parse_pack_index(*text, where) : text.error();
+    if (!index)
+        return index.error();
+    std::vector<std::string> names = { kPackIndexName };
+    const auto add = [&](const auto& part) {
+        if (part)
+            names.push_back(part->file.name);
+    };
+    add(index->photos);
+    add(index->raws);
+    add(index->cameras);
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        if (std::find(names.begin(), names.end(), name) == names.end() ||
+            !fs::is_regular_file(entry->symlink_status(error)))
+            return Error{ "holds '" + name + "', which is no file of the pack" };
+    }
+    return error ? Status(Error{ "cannot be listed: " + error.message() }) : Status();
+}
+
 Expected<std::unique_ptr<TrainingPackWriter>> TrainingPackWriter::create(const std::string& folder, bool replace)
 {
-    auto staged = StagedFolder::create(folder, kPackIndexName, replace);
+    auto staged = StagedFolder::create(folder, check_pack_folder, replace);
     if (!staged)
         return staged.error();
     return std::unique_ptr<TrainingPackWriter>(new TrainingPackWriter(std::move(*staged)));

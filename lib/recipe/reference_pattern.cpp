@@ -139,4 +139,12 @@ bool has_raw_extension(const std::string& path)
            std::binary_search(kRawExtensions.begin(), kRawExtensions.end(), extension.substr(1));
 }
 
+std::vector<std::string> layout_paths(const std::string& path)
+{
+    std::vector<std::string> paths = { path + ".json" };
+    if (fs::path(path).has_extension())
+        paths.push_back(fs::path(path).replace_extension(".json").string());
+    return paths;
+}
+
 } // namespace srisp

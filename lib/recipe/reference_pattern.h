@@ -25,4 +25,7 @@ Expected<std::vector<std::string>> expand_references(const std::vector<std::stri
 /// Whether a file's extension is one of a camera's RAW formats.
 bool has_raw_extension(const std::string& path);
 
+/// Where a file may lie that describes the plain samples of another: 'plate.raw.json', 'plate.json'.
+std::vector<std::string> layout_paths(const std::string& path);
+
 } // namespace srisp

@@ -2,15 +2,22 @@
 #include <srisp/reference.h>
 
 #include "base/recently_kept.h"
-#include "reference/sample_layout.h"
+#include "recipe/reference_pattern.h"
 
 namespace srisp {
 
+std::vector<std::string> reference_files(const std::string& path)
+{
+    std::vector<std::string> files = layout_paths(path);
+    files.insert(files.begin(), path);
+    return files;
+}
+
 std::string reference_state(const std::string& path)
 {
-    std::string state = file_state(path);
-    for (const std::string& layout : layout_paths(path))
-        state += "\n" + file_state(layout);
+    std::string state;
+    for (const std::string& file : reference_files(path))
+        state += (state.empty() ? "" : "\n") + file_state(file);
     return state;
 }
 

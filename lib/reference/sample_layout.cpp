@@ -8,6 +8,7 @@
 #include "base/input_file.h"
 #include "base/json_object.h"
 #include "base/near_names.h"
+#include "recipe/reference_pattern.h"
 
 namespace srisp {
 
@@ -131,14 +132,6 @@ private:
 };
 
 } // namespace
-
-std::vector<std::string> layout_paths(const std::string& path)
-{
-    std::vector<std::string> paths = { path + ".json" };
-    if (std::filesystem::path(path).has_extension())
-        paths.push_back(std::filesystem::path(path).replace_extension(".json").string());
-    return paths;
-}
 
 Expected<SampleLayout> parse_sample_layout(const std::string& text, const std::string& path)
 {

@@ -22,11 +22,8 @@ struct SampleLayout {
     std::uint64_t offset = 0, row_bytes = 0;
 };
 
-/// Where the description of a file may lie: 'plate.raw.json', 'plate.json'.
-std::vector<std::string> layout_paths(const std::string& path);
-
-/// Reads the first of these that exists (nothing if none does). Errors begin with the description's name: not JSON,
-/// unknown or missing keys (the near ones listed), values that cannot be.
+/// Reads the first of layout_paths that exists (nothing if none does). Errors begin with the description's name: not
+/// JSON, unknown or missing keys (the near ones listed), values that cannot be.
 Expected<std::optional<SampleLayout>> find_sample_layout(const std::string& path);
 
 /// Reads a description from its text.

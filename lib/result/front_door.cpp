@@ -5,8 +5,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include <unistd.h>
-
+#include "base/named_output.h"
 #include "base/png_orientation.h"
 #include "photo/pixel_source.h"
 #include "recipe/recipe.h"
@@ -23,13 +22,6 @@ OIIO::TypeDesc stored_type(const std::string& format)
         return OIIO::TypeHalf;
     const char* const floats[] = { "tiff", "fits", "hdr" };
     return std::count(std::begin(floats), std::end(floats), format) ? OIIO::TypeFloat : OIIO::TypeUInt16;
-}
-
-/// In the same folder, and of the same kind for writers that look at the name again.
-std::filesystem::path temporary_name(const std::filesystem::path& path)
-{
-    const std::string name = path.stem().string() + ".tmp-" + std::to_string(::getpid()) + path.extension().string();
-    return path.parent_path() / name;
 }
 
 Status write_image(OIIO::ImageOutput& output, const std::string& path, const OIIO::ImageSpec& image,
@@ -96,18 +88,14 @@ Status Image::save(const std::string& path) const
         auto output = OIIO::ImageOutput::create(path);
         if (!output)
             return Error{ where + ": " + OIIO::geterror() };
-        const std::filesystem::path temporary = temporary_name(path);
-        Status written = write_image(*output, temporary.string(), m_spec, m_pixels.data());
+        NamedOutput file(path);
+        Status written = file.created();
+        if (written)
+            written = write_image(*output, file.name(), m_spec, m_pixels.data());
         output.reset();
-        std::error_code error;
         if (written)
-            std::filesystem::rename(temporary, path, error);
-        if (error)
-            written = Error{ error.message() };
-        if (written)
-            return {};
-        std::filesystem::remove(temporary, error);
-        return Error{ where + ": " + written.error().message };
+            written = file.finish();
+        return written ? written : Status(Error{ where + ": " + written.error().message });
     });
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/shown_text.h"
+
 namespace srisp {
 
 namespace {
@@ -82,8 +84,11 @@ void add_operator(std::string& text, const Cube& cube)
 
 std::string clf_escaped(const std::string& text)
 {
-    std::string result;
-    for (const char c : text)
+    std::string valid = valid_utf8(text), result;               // names of files may be any bytes
+    for (const char* none : { "\xef\xbf\xbe", "\xef\xbf\xbf" }) // U+FFFE and U+FFFF
+        for (std::size_t at; (at = valid.find(none)) != std::string::npos;)
+            valid.replace(at, 3, "?");
+    for (const char c : valid)
         switch (c) {
         case '&':
             result += "&amp;";

@@ -67,7 +67,7 @@ OCIO_NAMESPACE::GroupTransformRcPtr ocio_group(const Operators& operators);
 /// A CLF file. (OpenColorIO writes them, too, but takes seconds for a cube of 65³.)
 std::string clf_text(const Operators& operators, const ClfLabel& label);
 
-/// A text inside of a CLF file. What XML cannot hold (control characters) becomes '?'.
+/// A text inside of a CLF file. What XML cannot hold (control characters) becomes '?', bytes that are no UTF-8 \xff.
 std::string clf_escaped(const std::string& text);
 
 } // namespace srisp

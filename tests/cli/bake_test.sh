@@ -105,6 +105,64 @@ names() {
 }
 check "references with odd names; '\$' and '%' are warned of" names
 
+# Bytes that are no UTF-8, control characters, and what XML and comments would end at.
+hostile_names() {
+    /usr/bin/python3 - "$bake" "$reference" "$photo" look.json <<'P'
+import json, os, shutil, subprocess, sys
+import xml.etree.ElementTree as xml
+bake, reference, photo, look = (os.fsencode(a) for a in sys.argv[1:])
+names = [b"gr\xf6\xdfe", b"\xff\xfe", b"\xed\xa0\x80", b"cut \xe2\x82", b"a\x01b", b"new\nline", b"\x7f", b"a--b", b"]]>",
+         b"-->", b"<![CDATA[", b"&amp;", b'"q\'', b"tab\t", b"\xef\xbf\xbe", b"\xef\xbf\xbf", b"\xc0\xaf"]
+for name in names:
+    shutil.copy(reference, name + b".dng")
+    shutil.copy(photo, name + b".jpg")
+    run = subprocess.run([bake, "--reference", name + b".dng", "--source", name + b".jpg", "--cube", "--lut-size", "5", "--json"],
+                         stdout=subprocess.PIPE, check=True)
+    assert len(json.loads(run.stdout)["files"]) == 4
+    for end in (b".unprocess", b".process"):
+        text = open(name + b".dng" + end + b".clf", "rb").read()
+        root = xml.fromstring(text)
+        assert root.find("Description").text.strip()
+        assert any(d.text.startswith("Reference: ") for d in root.findall("Description")), name
+        open(name + b".dng" + end + b".cube", encoding="utf-8").read()
+        subprocess.run([bake, "--reference", name + b".dng", "--lut-size", "5", "-q"], check=True)  # its own is known again
+        for each in (b".clf", b".cube"):
+            os.remove(name + b".dng" + end + each)
+        shutil.rmtree(b"none", ignore_errors=True)
+P
+}
+check "names of any bytes give well-formed files" hostile_names
+
+# A fragment that fails leaves nothing; a folder for -o is not made.
+fragments() {
+    mkdir -p cfg && cd cfg || return 1
+    cat >config.ocio <<'CONFIG'
+ocio_profile_version: 2
+search_path: luts/deep
+roles:
+  aces_interchange: ACES2065-1
+  default: ACES2065-1
+  scene_linear: ACES2065-1
+file_rules:
+- !<Rule> {name: Default, colorspace: default}
+displays:
+  d:
+  - !<View> {name: v, colorspace: ACES2065-1}
+colorspaces:
+- !<ColorSpace>
+  name: ACES2065-1
+CONFIG
+    says 1 "no/such" "$bake" --fragment config.ocio -o no/such/out.ocio || return 1
+    [ "$(ls)" = config.ocio ] || { ls; return 1; }
+    mkdir out.ocio # an output that cannot be taken
+    says 1 "out.ocio" "$bake" --fragment config.ocio -o out.ocio || return 1
+    [ "$(ls | tr '\n' ' ')" = "config.ocio out.ocio " ] || { ls; return 1; }
+    "$bake" --fragment config.ocio -o /dev/stdout -q >copy.ocio || return 1
+    grep -q "srisp unprocess" copy.ocio && [ "$(ls luts/deep | wc -l)" -eq 2 ] && [ ! -e /dev/luts ]
+}
+fragment_case() { (fragments); }
+check "a fragment that fails leaves no file and no folder" fragment_case
+
 shared_bakes() {
     mkdir -p bakes a b
     cp "$reference" a/r.dng

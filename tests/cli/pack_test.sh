@@ -118,7 +118,8 @@ import os, signal
 for name in ('SIGINT', 'SIGTERM', 'SIGHUP'): signal.signal(getattr(signal, name), signal.SIG_DFL)
 os.execv('$srisppack', ['srisppack', 'large', '-o', 'stopped'])" 2>err &
     pid=$!
-    for _ in $(seq 400); do ls .stopped.partial-*/photos.safetensors.tmp* >/dev/null 2>&1 && break; sleep 0.02; done
+    for _ in $(seq 400); do ls -d .stopped.partial-* >/dev/null 2>&1 && break; sleep 0.02; done
+    sleep 0.2
     kill "-$1" $pid
     wait $pid
     is $? "$2" && [ ! -e stopped ]

@@ -47,8 +47,8 @@ std::uint64_t sum_of(const PackedImages& images)
 {
     std::uint64_t sum = 0;
     for (std::size_t i = 0; i < images.entries.size(); ++i)
-        for (int k = 0; k < 3 * images.size * images.size; ++k)
-            sum += images.image(i)[k];
+        for (const std::uint16_t value : *images.image(i))
+            sum += value;
     return sum;
 }
 

@@ -37,7 +37,7 @@ run() {
     shift
     code=0
     "$@" >"$scratch/out" 2>"$scratch/err" || code=$?
-    sed -i -e 's,srisptool-[-0-9A-Za-z]*,srisptool-X,g' "$scratch/out" "$scratch/err"
+    sed -i -e 's,srisptool.partial-[0-9a-f]*,srisptool-X,g' "$scratch/out" "$scratch/err"
     show "$name: stdout" "$scratch/out"
     show "$name: stderr, exit code $code" "$scratch/err"
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "failure.h"
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -9,8 +10,23 @@
 
 namespace srisp::tool {
 
+static struct sigaction g_file_limit = {};
+
+void ignore_file_limit_signal()
+{
+    struct sigaction ignore = {};
+    ignore.sa_handler = SIG_IGN;
+    sigaction(SIGXFSZ, &ignore, &g_file_limit);
+}
+
+void restore_file_limit_signal()
+{
+    sigaction(SIGXFSZ, &g_file_limit, nullptr);
+}
+
 int run_tool(const char* name, const std::function<int()>& body)
 {
+    ignore_file_limit_signal();
     try {
         return body();
     } catch (const Interrupted& interrupted) {

@@ -41,9 +41,15 @@ inline void require(const Status& status)
         fail(status.error().message);
 }
 
+/// A write beyond the limit for files fails, as on a full disk, instead of ending the program without a word; programs
+/// that it starts inherit that. `restore_file_limit_signal` undoes it.
+void ignore_file_limit_signal();
+void restore_file_limit_signal();
+
 /// What a tool's main() returns: the exit code of `body`, or that of the Failure it throws, whose message is printed
 /// on stderr. After Interrupted, the program ends as the signal would have ended it. Of the message of any other
-/// exception the first line is printed; LibTorch appends a stack trace.
+/// exception the first line is printed; LibTorch appends a stack trace. The signal for files that grow too large is
+/// ignored.
 int run_tool(const char* name, const std::function<int()>& body);
 
 } // namespace srisp::tool

@@ -2,19 +2,18 @@
 #include "temporary_folder.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
-#include <fstream>
-#include <regex>
 #include <vector>
 
+#include "base/unfinished.h"
+
 #include "failure.h"
+#include "unfinished_output.h"
 
 namespace srisp::tool {
 
@@ -22,8 +21,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const char kPrefix[] = "srisptool-";
-const char kLock[] = "lock";
+const char kName[] = "srisptool";
+constexpr std::size_t kLongestList = 16 << 20;
 
 /// Only characters that mean nothing to oiiotool (wildcards, expressions, queries) or to ld.so (LD_PRELOAD's
 /// separators).
@@ -49,41 +48,39 @@ std::vector<fs::path> candidate_folders()
     return folders;
 }
 
-/// -1: the lock is held, or there is none.
-int try_lock(const fs::path& folder, int flags)
-{
-    const int file = open((folder / kLock).c_str(), O_RDWR | O_NOFOLLOW | flags, 0600);
-    if (file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0)
-        return file;
-    if (file >= 0)
-        close(file);
-    return -1;
-}
-
+/// Only what a run of this user left, in a folder that was private.
 void remove_leftover(const fs::path& folder)
 {
     struct stat info;
-    if (lstat(folder.c_str(), &info) != 0 || !S_ISDIR(info.st_mode) || info.st_uid != geteuid())
-        return;
-    std::error_code error;
-    if (fs::exists(folder / kLock, error)) {
-        const int lock = try_lock(folder, O_CLOEXEC);
-        if (lock < 0)
-            return;
+    if (lstat(folder.c_str(), &info) == 0 && S_ISDIR(info.st_mode) && (info.st_mode & 07777) == 0700)
         remove_temporary_folder(folder);
-        close(lock);
-    } else if (std::time(nullptr) - info.st_mtime > 60) {
-        rmdir(folder.c_str()); // killed before it was locked; a younger one may be about to be
-    }
 }
 
-void remove_leftovers(const fs::path& base)
+/// The names in the list; none where it is no plain file of ours.
+std::vector<std::string> listed_outputs(const fs::path& list)
 {
-    std::error_code error;
-    for (fs::directory_iterator entry(base, error), end; !error && entry != end; entry.increment(error))
-        if (std::regex_match(entry->path().filename().string(),
-                             std::regex(kPrefix + std::string("[0-9]+-[0-9A-Za-z]{6}"))))
-            remove_leftover(entry->path());
+    const int file = open(list.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    struct stat info;
+    std::string text;
+    if (file >= 0 && fstat(file, &info) == 0 && S_ISREG(info.st_mode) && info.st_uid == geteuid()) {
+        text.resize(std::min<std::size_t>(std::size_t(info.st_size), kLongestList));
+        text.resize(std::size_t(std::max<ssize_t>(read(file, text.data(), text.size()), 0)));
+    }
+    if (file >= 0)
+        close(file);
+    std::vector<std::string> names;
+    for (std::size_t begin = 0, end; (end = text.find('\0', begin)) != std::string::npos; begin = end + 1)
+        names.push_back(text.substr(begin, end - begin));
+    return names;
+}
+
+/// Nothing but a file of this user under a name that oiiotool made.
+void remove_unfinished_output(const std::string& path)
+{
+    struct stat info;
+    if (path[0] == '/' && is_unfinished_output(path) && lstat(path.c_str(), &info) == 0 && S_ISREG(info.st_mode) &&
+        info.st_uid == geteuid())
+        unlink(path.c_str());
 }
 
 } // namespace
@@ -92,20 +89,15 @@ TemporaryFolder::TemporaryFolder()
 {
     std::string reasons;
     for (const fs::path& base : candidate_folders()) {
-        remove_leftovers(base);
-        std::string name = (base / (kPrefix + std::to_string(getpid()) + "-XXXXXX")).string();
-        if (mkdtemp(name.data())) {
-            m_path = name;
-            // Not close-on-exec: an oiiotool that outlives us keeps the folder locked.
-            m_lock = try_lock(m_path, O_CREAT);
-            if (m_lock >= 0)
-                return;
+        for_each_leftover(base / kName, remove_leftover);
+        if (const Expected<Unfinished> made = make_unfinished_folder(base / kName)) {
+            m_path = made->path;
+            m_lock = made->descriptor;
+            fcntl(m_lock, F_SETFD, 0); // an oiiotool that outlives us keeps the folder locked
+            return;
+        } else {
+            reasons += "; " + base.string() + ": " + made.error().message;
         }
-        reasons += "; " + base.string() + ": " + std::strerror(errno);
-        std::error_code error;
-        if (!m_path.empty())
-            fs::remove_all(m_path, error);
-        m_path.clear();
     }
     fail("cannot make a temporary folder" + reasons + " (set TMPDIR to a writable folder with a plain name)");
 }
@@ -118,10 +110,9 @@ TemporaryFolder::~TemporaryFolder()
 
 void remove_temporary_folder(const fs::path& folder)
 {
+    for (const std::string& output : listed_outputs(folder / kStartedOutputs))
+        remove_unfinished_output(output);
     std::error_code error;
-    std::ifstream list(folder / kStartedOutputs, std::ios::binary);
-    for (std::string path; std::getline(list, path, '\0');)
-        fs::remove(path, error);
     fs::remove_all(folder, error);
 }
 

@@ -10,8 +10,8 @@ namespace srisp::tool {
 /// inherited it lives, so that the next run can tell the folders of killed runs and remove them.
 class TemporaryFolder {
 public:
-    /// Makes `srisptool-<pid>-XXXXXX` under $TMPDIR, else /tmp, else /dev/shm, whose name must hold nothing that
-    /// oiiotool would scan (`#`, `@`, `%`, `{`, …). Removes leftovers there first.
+    /// Makes `.srisptool.partial-…` (base/unfinished.h) under $TMPDIR, else /tmp, else /dev/shm, whose name must hold
+    /// nothing that oiiotool would scan (`#`, `@`, `%`, `{`, …). Removes leftovers there first.
     TemporaryFolder();
     ~TemporaryFolder();
     TemporaryFolder(const TemporaryFolder&) = delete;
@@ -24,7 +24,8 @@ private:
     int m_lock = -1;
 };
 
-/// Removes the folder and the unfinished outputs that are listed in it.
+/// Removes the folder and the outputs that are listed in it, as far as they are this user's and have the name of an
+/// unfinished one: whoever made the folder, nothing else goes.
 void remove_temporary_folder(const std::filesystem::path& folder);
 
 /// In a temporary folder: the outputs that the guard saw being made, each ended by a NUL (output_guard.cpp).

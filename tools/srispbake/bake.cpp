@@ -10,7 +10,9 @@
 #include "../common/interrupt.h"
 #include "bake_choice.h"
 #include "bake_options.h"
+#include "base/input_files.h"
 #include "base/output_file.h"
+#include "base/shown_text.h"
 #include "ocio/src/operators.h"
 
 namespace srisp::tool {
@@ -19,8 +21,9 @@ namespace OCIO = OCIO_NAMESPACE;
 
 namespace {
 
-std::string one_line(std::string text)
+std::string one_line(const std::string& name)
 {
+    std::string text = valid_utf8(name);
     for (char& c : text)
         if (static_cast<unsigned char>(c) < 0x20 || c == '"')
             c = ' ';
@@ -164,6 +167,20 @@ void write_files(std::vector<Baked>& files)
             fail("output " + status.error().message);
 }
 
+/// Before any work. Throws Failure.
+void refuse_inputs_as_outputs(const BakeOptions& options, const std::vector<OutputName>& names)
+{
+    InputFiles inputs;
+    for (const std::string& file : reference_files(options.reference))
+        inputs.add(file == options.reference ? "reference" : "description of the reference", file);
+    inputs.add("photo", options.source);
+    inputs.add("parameter file", options.parameters);
+    if (const auto model = Model::load(options.model))
+        inputs.add("model", (*model)->path());
+    for (const OutputName& name : names)
+        require(inputs.check_output(name.path));
+}
+
 /// Each with the name of the file that it is about.
 std::vector<std::string> notes_of(const BakeChoice& choice, const BakeOptions& options)
 {
@@ -182,6 +199,7 @@ BakeSummary bake(const BakeOptions& options)
 {
     const std::vector<OutputName> names =
         output_names(options.reference, options.output, options.direction, options.cube);
+    refuse_inputs_as_outputs(options, names);
     const BakeChoice choice = make_choice(options);
     if (!options.reference.empty() && options.output.empty())
         for (const OutputName& name : names)

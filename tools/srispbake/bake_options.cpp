@@ -5,9 +5,10 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 #include "../common/failure.h"
+#include "base/device_output.h"
+#include "base/file_bytes.h"
 #include "ocio/src/operators.h"
 
 namespace srisp::tool {
@@ -75,7 +76,7 @@ Options:
                       prints them, edited or not, instead of choosing
   --model NAME        Name or path of a pointwise model; pointwise
   -o, --output NAME   NAME.unprocess.clf and NAME.process.clf instead; or one
-                      file, NAME.clf or NAME.cube
+                      file, NAME.clf or NAME.cube; or a device or pipe
   --direction WHICH   Of one file: unprocess (without this) or process
   --cube              .cube files beside the .clf: one table, larger errors
   --lut-size N        Points along each side of tables, 5 to 129; 65
@@ -137,7 +138,7 @@ std::string stem_of_reference(const std::string& reference)
 
 bool is_single_file(const std::string& output)
 {
-    return ends_with(output, ".clf") || ends_with(output, ".cube");
+    return ends_with(output, ".clf") || ends_with(output, ".cube") || is_device_output(output);
 }
 
 const char* direction_name(Direction direction)
@@ -167,14 +168,12 @@ std::string reference_line(const std::string& reference)
 
 void refuse_bake_of_another(const std::string& path, const std::string& reference)
 {
-    std::ifstream file(path, std::ios::binary);
-    std::string head(16384, '\0');
-    file.read(head.data(), std::streamsize(head.size()));
-    head.resize(std::size_t(file.gcount()));
-    const std::size_t start = head.find(kReferenceLine);
+    constexpr std::size_t begin = 16384;
+    const auto head = read_head(path, begin);
+    const std::size_t start = head ? head->find(kReferenceLine) : std::string::npos;
     if (start == std::string::npos)
         return;
-    const std::string line = head.substr(start, head.find_first_of("<\n", start) - start);
+    const std::string line = head->substr(start, head->find_first_of("<\n", start) - start);
     if (line != reference_line(reference) && line != clf_escaped(reference_line(reference)))
         fail("'" + path + "' is the bake of another reference (" + line.substr(sizeof kReferenceLine - 1) +
              "); remove it, or give -o NAME");

@@ -38,7 +38,7 @@ struct OutputName {
     bool cube; ///< .cube instead of .clf
 };
 
-/// Whether -o names one file (".clf", ".cube") instead of what a pair of names starts with.
+/// Whether -o names one file (".clf", ".cube", a device or pipe) instead of what a pair of names starts with.
 bool is_single_file(const std::string& output);
 
 /// "unprocess" or "process".

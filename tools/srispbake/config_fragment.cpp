@@ -8,6 +8,7 @@
 #include <OpenColorIO/OpenColorIO.h>
 
 #include "../common/failure.h"
+#include "base/device_output.h"
 #include "base/file_bytes.h"
 #include "base/output_file.h"
 #include "base/installed_files.h"
@@ -163,10 +164,11 @@ fs::path neutral_folder(const OCIO::ConstConfigRcPtr& config, const std::string&
     return own;
 }
 
-/// Neutral bakes that were put where they are found; they are removed where what follows fails.
+/// Neutral bakes that were put where they are found; they and folders that were made for them are removed where what
+/// follows fails.
 class NeutralBakes {
 public:
-    explicit NeutralBakes(const fs::path& folder)
+    void put_into(const fs::path& folder)
     {
         for (const char* end : { ".unprocess.clf", ".process.clf" }) {
             const std::string name = kNeutral + std::string(end);
@@ -174,28 +176,54 @@ public:
             std::error_code error;
             if (fs::exists(folder / name, error))
                 continue;
-            fs::create_directories(folder, error);
+            make_folder(folder);
             if (const Status status = write_output_file((folder / name).string(), text); !status)
                 fail("neutral bake " + status.error().message);
             m_made.push_back(folder / name);
         }
     }
+    /// Leaves what others put into the folders meanwhile.
     ~NeutralBakes()
     {
         std::error_code error;
-        for (const fs::path& path : m_made)
-            fs::remove(path, error);
+        for (auto path = m_made.rbegin(); path != m_made.rend(); ++path)
+            fs::remove(*path, error);
     }
     void keep() { m_made.clear(); }
 
 private:
+    void make_folder(const fs::path& folder)
+    {
+        std::error_code error;
+        if (fs::is_directory(folder, error))
+            return;
+        if (folder.has_relative_path())
+            make_folder(folder.parent_path());
+        if (fs::create_directory(folder, error))
+            m_made.push_back(folder);
+        if (error)
+            fail("folder '" + folder.string() + "' for the neutral bakes cannot be made: " + error.message());
+    }
+
     std::vector<fs::path> m_made;
 };
+
+/// Before anything is made for it.
+void check_output_folder(const std::string& output)
+{
+    const fs::path folder = fs::absolute(output).parent_path();
+    std::error_code error;
+    if (!fs::is_directory(folder, error))
+        fail("output '" + output + "' cannot be created: the folder '" + folder.string() + "' does not exist");
+}
 
 FragmentReport add_checked(const std::string& path, const std::string& output, const std::string& linear_srgb)
 {
     const std::string text = read_text(path, "config");
-    const OCIO::ConstConfigRcPtr original = config_of(text, output);
+    check_output_folder(output);
+    // The folder that paths in it are relative to; a device lies in none.
+    const std::string place = is_device_output(output) ? path : output;
+    const OCIO::ConstConfigRcPtr original = config_of(text, place);
     if (original->getMajorVersion() < 2)
         fail("has profile version 1; aliases, file rules and exact sRGB curves need version 2 (ocio_profile_version: "
              "2)");
@@ -203,9 +231,10 @@ FragmentReport add_checked(const std::string& path, const std::string& output, c
         return { "", "", "", true };
     const LinearSrgb linear = find_linear_srgb(original, linear_srgb);
     const std::string extended = extended_text(text, original, linear);
-    const fs::path folder = neutral_folder(original, output);
-    NeutralBakes bakes(folder);
-    check_extended(config_of(extended, output), original);
+    const fs::path folder = neutral_folder(original, place);
+    NeutralBakes bakes;
+    bakes.put_into(folder);
+    check_extended(config_of(extended, place), original);
     if (const Status status = write_output_file(output, extended); !status)
         fail(status.error().message);
     bakes.keep();

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <set>
 #include <sstream>
+#include <utility>
 
+#include "base/file_part.h"
 #include "base/half_float.h"
-#include "base/input_file.h"
 #include "crops.h"
 #include "model/safetensors.h"
 #include "thumbnail/area_squasher.h"
@@ -20,45 +20,52 @@ namespace {
 
 const char kFormat[] = "srisp-thumbnails-1";
 
-/// A set that is open; images are decoded one by one.
+/// A set that is open; images are read one by one.
 struct LinearSet {
-    MappedFile file;
+    LinearSet(RegularFile opened, std::string name) : file(std::move(opened)), where(std::move(name)) {}
+
+    RegularFile file;
     std::string where, camera, dataset, licence;
     std::vector<std::string> names;
     std::int64_t count = 0;
     int width = 0, height = 0;
     bool half = false;
-    const char* raw = nullptr;
-    const char *illuminant = nullptr, *validation = nullptr; ///< null: not in the file
+    std::uint64_t raw = 0;         ///< where its bytes begin in the file
+    std::vector<float> illuminant; ///< empty: not in the file
+    std::vector<std::uint8_t> validation;
 
-    std::vector<float> image(std::int64_t index) const
+    Expected<std::vector<float>> image(std::int64_t index) const
     {
         std::vector<float> rgb(std::size_t(width) * height * 3);
-        const std::size_t bytes = half ? 2 : 4;
-        const char* at = raw + std::size_t(index) * rgb.size() * bytes;
-        for (float& value : rgb) {
-            std::uint16_t bits;
-            std::memcpy(half ? static_cast<void*>(&bits) : &value, at, bytes);
-            if (half)
-                value = float_from_half(bits);
-            at += bytes;
-        }
+        const std::size_t bytes = half ? sizeof(std::uint16_t) : sizeof(float);
+        std::vector<std::uint16_t> halves(half ? rgb.size() : 0);
+        const Status status = read_bytes(file, half ? static_cast<void*>(halves.data()) : rgb.data(),
+                                         raw + std::size_t(index) * rgb.size() * bytes, rgb.size() * bytes);
+        if (!status)
+            return Error{ where + " " + status.error().message };
+        std::transform(halves.begin(), halves.end(), rgb.begin(), float_from_half);
         return rgb;
     }
 };
 
-/// The tensor's bytes; null where there is none.
-Expected<const char*> find_tensor(const LinearSet& set, const SafeTensorsHeader& header, const std::string& name,
-                                  const std::string& type, const std::vector<std::int64_t>& shape)
+/// The tensor's values; none where there is no such tensor.
+template<class Value> Expected<std::vector<Value>> find_tensor(const LinearSet& set, const SafeTensorsHeader& header,
+                                                               const std::string& name, const std::string& type,
+                                                               const std::vector<std::int64_t>& shape)
 {
     for (const TensorEntry& entry : header.entries)
         if (entry.name == name) {
             if (entry.type != type || entry.shape != shape)
                 return Error{ set.where + ": tensor '" + name + "' is " + entry.type + " " + shape_text(entry.shape) +
                               ", must be " + type + " " + shape_text(shape) };
-            return set.file.data() + header.data_begin + entry.begin;
+            std::vector<Value> values((entry.end - entry.begin) / sizeof(Value));
+            const Status status =
+                read_bytes(set.file, values.data(), header.data_begin + entry.begin, values.size() * sizeof(Value));
+            if (!status)
+                return Error{ set.where + " " + status.error().message };
+            return values;
         }
-    return static_cast<const char*>(nullptr);
+    return std::vector<Value>();
 }
 
 Status read_texts(LinearSet& set, const SafeTensorsHeader& header)
@@ -96,31 +103,29 @@ Status read_raw_shape(LinearSet& set, const SafeTensorsHeader& header)
     set.height = int(shape[1]);
     set.width = int(shape[2]);
     set.half = raw->type == "F16";
-    set.raw = set.file.data() + header.data_begin + raw->begin;
+    set.raw = header.data_begin + raw->begin;
     return {};
 }
 
 Expected<std::shared_ptr<const LinearSet>> open_set(const std::string& path)
 {
-    auto set = std::make_shared<LinearSet>();
-    set->where = "set '" + path + "'";
-    Expected<MappedFile> file = MappedFile::open(path);
+    const std::string where = "set '" + path + "'";
+    Expected<RegularFile> file = open_for_parts(path);
     if (!file)
         return Error{ "set " + file.error().message };
-    set->file = std::move(*file);
-    const Expected<SafeTensorsHeader> header =
-        parse_safetensors_header(set->file.data(), set->file.size(), { "F16", "F32", "U8" }, set->where);
+    auto set = std::make_shared<LinearSet>(std::move(*file), where);
+    const Expected<SafeTensorsHeader> header = read_safetensors_header(set->file, { "F16", "F32", "U8" }, set->where);
     if (!header)
         return header.error();
     for (const Status& status : { read_texts(*set, *header), read_raw_shape(*set, *header) })
         if (!status)
             return status.error();
-    const Expected<const char*> illuminant = find_tensor(*set, *header, "illuminant", "F32", { set->count, 3 });
-    const Expected<const char*> validation = find_tensor(*set, *header, "validation", "U8", { set->count });
+    auto illuminant = find_tensor<float>(*set, *header, "illuminant", "F32", { set->count, 3 });
+    auto validation = find_tensor<std::uint8_t>(*set, *header, "validation", "U8", { set->count });
     if (!illuminant || !validation)
         return !illuminant ? illuminant.error() : validation.error();
-    set->illuminant = *illuminant;
-    set->validation = *validation;
+    set->illuminant = std::move(*illuminant);
+    set->validation = std::move(*validation);
     if (!set->names.empty() && std::int64_t(set->names.size()) != set->count)
         return Error{ set->where + ": metadata 'names' has " + std::to_string(set->names.size()) +
                       " words, the set has " + std::to_string(set->count) + " images" };
@@ -149,9 +154,9 @@ std::string camera_of(const LinearSet& set, std::int64_t index)
 
 void set_white_balance(const LinearSet& set, std::int64_t index, PackEntry& image)
 {
-    float light[3] = {};
-    if (set.illuminant)
-        std::memcpy(light, set.illuminant + index * std::int64_t(sizeof light), sizeof light);
+    if (set.illuminant.empty())
+        return;
+    const float* light = set.illuminant.data() + 3 * index;
     if (std::all_of(light, light + 3, [](float v) { return v > 0 && std::isfinite(v); }))
         image.white_balance = { light[1] / light[0], 1, light[1] / light[2] };
 }
@@ -176,7 +181,10 @@ void squash_crops(const LinearSet& set, const std::vector<float>& rgb, const Roi
 Expected<PackedScene> pack_image(const LinearSet& set, std::int64_t index, const std::string& name,
                                  const Provenance& provenance, const CropSettings& settings)
 {
-    const std::vector<float> rgb = set.image(index);
+    const Expected<std::vector<float>> read = set.image(index);
+    if (!read)
+        return read.error();
+    const std::vector<float>& rgb = *read;
     if (!std::all_of(rgb.begin(), rgb.end(), [](float v) { return std::isfinite(v); }))
         return Error{ set.where + ": image " + std::to_string(index) + " holds NaN or infinity" };
     PackedScene packed;
@@ -186,7 +194,7 @@ Expected<PackedScene> pack_image(const LinearSet& set, std::int64_t index, const
     image.source = provenance.source;
     image.licence = provenance.licence;
     image.open = provenance.open;
-    image.validation = set.validation ? set.validation[index] != 0 : provenance.validation;
+    image.validation = !set.validation.empty() ? set.validation[std::size_t(index)] != 0 : provenance.validation;
     set_white_balance(set, index, image);
     const Roi part = largest_unmasked_part(rgb, set.width, set.height);
     if ((part.x1 - part.x0) * (part.y1 - part.y0) * 2 < set.width * set.height)

@@ -57,8 +57,8 @@ Options:
   --seed N           Of the choice of these parts; 0
   --open-only        Only images that the manifest calls open
   --strict           An image that cannot be read is an error
-  --replace          Make PACK anew where there is one; the old one stays until
-                     the new one is complete
+  --replace          Make PACK anew where there is one, and nothing else in its
+                     folder; the old one stays until the new one is complete
   --threads N        0: one for each processor; 0
   --json             The summary on stdout as JSON
   -q, --quiet        No progress

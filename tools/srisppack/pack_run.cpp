@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
+#include "base/input_files.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "camera_folder.h"
@@ -22,6 +24,8 @@
 #include "summary.h"
 
 namespace srisp::tool {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -148,6 +152,18 @@ void judge(const PartReport& report, const char* what, bool strict, ProgressMete
         std::fprintf(stderr, "srisppack: %zu %s cannot be read and are left out\n", failed, what);
 }
 
+/// An old pack that is to be replaced may hold a set that is to be packed.
+void refuse_inputs_as_outputs(const PackOptions& options, const Inputs& inputs)
+{
+    InputFiles files;
+    for (const auto* images : { &inputs.photos, &inputs.raws, &inputs.sets })
+        for (const ImageInput& image : *images)
+            files.add("input", image.path);
+    std::error_code error;
+    for (fs::directory_iterator entry(options.output, error), end; !error && entry != end; entry.increment(error))
+        require(files.check_output(entry->path().string()));
+}
+
 nlohmann::json settings_of(const PackOptions& options, int raw_size)
 {
     return { { "size", options.size },
@@ -165,6 +181,7 @@ Summary make_pack(const PackOptions& options)
     auto created = TrainingPackWriter::create(options.output, options.replace);
     if (!created)
         fail("output " + created.error().message);
+    refuse_inputs_as_outputs(options, inputs);
     TrainingPackWriter& pack = **created;
 
     const CropSettings photo_settings{ options.size, options.crops, options.seed };

@@ -87,4 +87,24 @@ bool contains(const std::vector<Step>& steps, const std::string& name)
     return std::any_of(steps.begin(), steps.end(), [&](const Step& step) { return step.is_named(name); });
 }
 
+bool is_for_images(const Step& step)
+{
+    return step.srisp && (step.srisp->effect == Effect::replaces || step.srisp->effect == Effect::reports);
+}
+
+std::string name_read_by(const Step& step)
+{
+    const bool reads = step.oiiotool && step.oiiotool->role == Role::reads && step.words.size() == 2;
+    return step.is_operand() || reads ? step.words.back() : "";
+}
+
+std::size_t end_of_reading(const std::vector<Step>& steps)
+{
+    std::size_t end = 0;
+    for (std::size_t i = 0; i < steps.size(); ++i)
+        if (is_for_images(steps[i]) || (end > 0 && (steps[i].is_named("endfor") || steps[i].is_named("endwhile"))))
+            end = i + 1;
+    return end;
+}
+
 } // namespace srisp::tool

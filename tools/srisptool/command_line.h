@@ -36,4 +36,13 @@ std::vector<Step> parse_command_line(const std::vector<std::string>& words);
 /// Whether a command of that name (without dashes) is among the steps.
 bool contains(const std::vector<Step>& steps, const std::string& name);
 
+/// Whether a step is one of our commands for images.
+bool is_for_images(const Step& step);
+
+/// What an operand or `-i` names; empty for other steps.
+std::string name_read_by(const Step& step);
+
+/// Behind the last step before which it matters how images are read; a loop comes back to all that it holds.
+std::size_t end_of_reading(const std::vector<Step>& steps);
+
 } // namespace srisp::tool

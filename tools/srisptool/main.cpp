@@ -11,13 +11,6 @@
 using namespace srisp;
 using namespace srisp::tool;
 
-static bool uses_images_of_ours(const std::vector<Step>& steps)
-{
-    return std::any_of(steps.begin(), steps.end(), [](const Step& step) {
-        return step.srisp && (step.srisp->effect == Effect::replaces || step.srisp->effect == Effect::reports);
-    });
-}
-
 static int run(const std::string& program, const std::vector<std::string>& words)
 {
     const std::vector<Step> steps = parse_command_line(words);
@@ -32,7 +25,7 @@ static int run(const std::string& program, const std::vector<std::string>& words
         std::puts("srisptool " SRISP_VERSION ", with oiiotool");
     }
     std::fflush(stdout);
-    if (!uses_images_of_ours(steps))
+    if (std::none_of(steps.begin(), steps.end(), is_for_images))
         run_unchanged(steps);
     return run_rewritten(program, steps);
 }

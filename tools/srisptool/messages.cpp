@@ -2,11 +2,14 @@
 #include "messages.h"
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <regex>
 #include <utility>
 
 #include "recipe/frame_pattern.h"
+
+#include "output_guard.h"
 
 namespace srisp::tool {
 
@@ -16,6 +19,7 @@ const std::string kError = "oiiotool ERROR", kWarning = "oiiotool WARNING";
 const char kRepeats[] = "Full command line was:";
 const char kNothingToWrite[] = "did not have any current image to output";
 const std::string kOurWriter = kError + ": -o:datatype=float:bits=0:autocc=0"; // as the rewriter writes it
+const std::string kJpegError = "Output file write error";
 const std::string kNote = "srisp: note: ";
 const std::string kMissing = kError + ": read : File does not exist: ";
 
@@ -105,6 +109,12 @@ std::string reason_for(const Subject& subject, const std::string& frame, std::st
     return names_a_file(reason) ? reason : named(subject, frame) + ": " + reason;
 }
 
+/// oiiotool's error for an output, or libjpeg's.
+bool is_failed_output(const std::string& line)
+{
+    return (begins_with(line, kError + ": -o") && !begins_with(line, kOurWriter)) || begins_with(line, kJpegError);
+}
+
 } // namespace
 
 std::string Messages::take(std::string_view bytes)
@@ -125,7 +135,16 @@ std::string Messages::finish()
 {
     const std::string text = m_line.empty() ? "" : shown(m_line);
     m_line.clear();
-    return text + release_warning();
+    return text + release_warning() + std::exchange(m_failed_write, "");
+}
+
+void Messages::take_failed_write(const std::string& text)
+{
+    const std::size_t end = std::min(text.find(": "), text.size());
+    std::string path = with_own_names(text.substr(std::min(end + 2, text.size())));
+    std::error_code error;
+    take_off(path, (std::filesystem::current_path(error) / "").string());
+    m_failed_write = "srisptool: ERROR: output '" + path + "' cannot be written: " + text.substr(0, end) + "\n";
 }
 
 std::string Messages::release_warning()
@@ -143,6 +162,14 @@ std::string Messages::shown(const std::string& line)
     if (line == kRepeats) {
         m_to_skip = m_lines;
         return "";
+    }
+    if (begins_with(line, kGuardFailure)) {
+        take_failed_write(line.substr(std::strlen(kGuardFailure)));
+        return "";
+    }
+    if ((m_failure_told || !m_failed_write.empty()) && is_failed_output(line)) {
+        m_failure_told = true;
+        return release_warning() + std::exchange(m_failed_write, "");
     }
     const auto name = find_name(line);
     if (name && begins_with(line, kWarning) && contains(line, kNothingToWrite)) {

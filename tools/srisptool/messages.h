@@ -41,6 +41,7 @@ private:
     };
 
     std::string shown(const std::string& line);
+    void take_failed_write(const std::string& text);
     std::string release_warning();
     std::string error(const std::string& text, const std::optional<Name>& name) const;
     std::optional<Name> find_name(const std::string& text) const;
@@ -53,6 +54,8 @@ private:
     int m_to_skip = 0;  ///< lines of the repeated command line
     std::string m_held; ///< a warning that may turn out to announce an error
     const Subject* m_held_for = nullptr;
+    std::string m_failed_write; ///< the error for an output that could not be written
+    bool m_failure_told = false;
 };
 
 } // namespace srisp::tool

@@ -6,17 +6,19 @@
 // * once any write to a file has failed for want of space, renaming an unfinished output fails with that error.
 // oiiotool then
 //   removes the file, says so, and exits with 1;
+// * an output that is a device or a pipe is written to, where oiiotool would put a file in its place;
 // * a PNG file gets its orientation where readers look for it (png_orientation.h);
 // * every unfinished output is listed for srisptool, which removes those that are left when oiiotool has ended.
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/statvfs.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
-#include <cctype>
 #include <cerrno>
 #include <climits>
 #include <cstdarg>
@@ -25,11 +27,15 @@
 #include <cstring>
 #include <string>
 
+#include "base/device_output.h"
 #include "base/png_orientation.h"
 
+#include "../common/unfinished_output.h"
 #include "output_guard.h"
 
 #define GUARDED extern "C" __attribute__((visibility("default")))
+
+using srisp::tool::is_unfinished_output;
 
 namespace {
 
@@ -41,30 +47,47 @@ template<class Function> Function* original(const char* name)
     return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 
-void note_failure(int file)
+/// Says which output it was, for srisptool to tell (messages.h): oiiotool's own words lack the reason, or the name.
+void report_failure(int file)
 {
-    const bool no_space = errno == ENOSPC || errno == EDQUOT || errno == EFBIG || errno == EIO;
-    int none = 0;
-    if (no_space && file > STDERR_FILENO)
-        write_error.compare_exchange_strong(none, errno);
+    const char* const stream = std::getenv(srisp::tool::kGuardStreamVariable);
+    char path[PATH_MAX];
+    const ssize_t length = readlink(("/proc/self/fd/" + std::to_string(file)).c_str(), path, sizeof path);
+    if (!stream || length <= 0 || !is_unfinished_output({ path, std::size_t(length) }))
+        return;
+    std::string line = srisp::tool::kGuardFailure + std::string(std::strerror(write_error)) + ": ";
+    line.append(path, std::size_t(length));
+    std::replace(line.begin(), line.end(), '\n', '?');
+    line += '\n';
+    static const auto write_file = original<ssize_t(int, const void*, size_t)>("write");
+    if (write_file(std::atoi(stream), line.data(), line.size()) < 0)
+        return; // nobody is there to be told
 }
 
-/// `….XXXXXXXX.temp.ext` with eight hexadecimal digits.
-bool is_unfinished_output(const char* path)
+void note_failure(int file)
 {
-    const char* const mark = path ? std::strstr(path, ".temp") : nullptr;
-    if (!mark || mark - path < 10 || std::strchr(mark, '/') || mark[-9] != '.')
-        return false;
-    for (int i = 1; i <= 8; ++i)
-        if (!std::isxdigit(static_cast<unsigned char>(mark[-i])))
-            return false;
-    return true;
+    const int saved = errno;
+    const bool no_space = saved == ENOSPC || saved == EDQUOT || saved == EFBIG || saved == EIO;
+    int none = 0;
+    if (no_space && file > STDERR_FILENO && write_error.compare_exchange_strong(none, saved))
+        report_failure(file);
+    errno = saved;
+}
+
+/// The errno of a write that failed where that is gone.
+int likely_reason(int file)
+{
+    struct statvfs disk;
+    rlimit limit;
+    if (fstatvfs(file, &disk) == 0 && disk.f_bavail == 0)
+        return ENOSPC;
+    return getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY ? EFBIG : EIO;
 }
 
 void list_output(const char* path)
 {
     const char* const list = std::getenv(srisp::tool::kGuardListVariable);
-    if (!list || !is_unfinished_output(path))
+    if (!list || !path || !is_unfinished_output(path))
         return;
     const int saved = errno;
     std::string line;
@@ -172,8 +195,7 @@ GUARDED int fclose(FILE* stream)
     static const auto next = original<int(FILE*)>("fclose");
     const int file = fileno(stream);
     if (ferror(stream) && (fcntl(file, F_GETFL) & O_ACCMODE) != O_RDONLY) {
-        struct statvfs disk; // the errno of the write that failed is gone
-        errno = fstatvfs(file, &disk) == 0 && disk.f_bavail == 0 ? ENOSPC : EIO;
+        errno = likely_reason(file);
         note_failure(file);
     }
     const int result = next(stream);
@@ -182,15 +204,36 @@ GUARDED int fclose(FILE* stream)
     return result;
 }
 
+/// What `rename` is for an output that is a device or pipe: that is written to, not replaced.
+static int write_to_device(const char* from, const char* to)
+{
+    const int source = open(from, O_RDONLY | O_CLOEXEC), target = srisp::open_device_output(to);
+    char bytes[1 << 16];
+    ssize_t count = source < 0 || target < 0 ? -1 : 1;
+    while (count > 0 && (count = read(source, bytes, sizeof bytes)) > 0)
+        for (ssize_t done = 0, written = 0; done < count; done += written)
+            if ((written = write(target, bytes + done, std::size_t(count - done))) < 0) {
+                count = -1;
+                break;
+            }
+    const int failed = count < 0 ? errno : 0;
+    close(source);
+    close(target);
+    if (failed == 0)
+        unlink(from);
+    errno = failed;
+    return failed == 0 ? 0 : -1;
+}
+
 GUARDED int rename(const char* from, const char* to)
 {
     static const auto next = original<int(const char*, const char*)>("rename");
-    const int failed = write_error;
-    if (failed != 0 && is_unfinished_output(from)) {
+    if (!is_unfinished_output(from))
+        return next(from, to);
+    if (const int failed = write_error; failed != 0) {
         errno = failed;
         return -1;
     }
-    if (is_unfinished_output(from))
-        srisp::place_png_orientation(from);
-    return next(from, to);
+    srisp::place_png_orientation(from);
+    return srisp::is_device_output(to) ? write_to_device(from, to) : next(from, to);
 }

@@ -26,21 +26,6 @@ const char kReadNow[] = "-i:now=1";
 // Takes the place of the user's name where that was printed, and is not printed again.
 const char kReadQuietly[] = ":now=1:autocc=0:info=0";
 
-bool is_for_images(const Step& step)
-{
-    return step.srisp && (step.srisp->effect == Effect::replaces || step.srisp->effect == Effect::reports);
-}
-
-/// Behind the last step before which it matters how images are read; a loop comes back to all that it holds.
-std::size_t end_of_reading(const std::vector<Step>& steps)
-{
-    std::size_t end = 0;
-    for (std::size_t i = 0; i < steps.size(); ++i)
-        if (is_for_images(steps[i]) || (end > 0 && (steps[i].is_named("endfor") || steps[i].is_named("endwhile"))))
-            end = i + 1;
-    return end;
-}
-
 /// Whether a step prints names of images on the stack, or may: there the user's own have to be.
 bool prints_names(const Step& step)
 {
@@ -83,13 +68,6 @@ private:
     void emit(const std::vector<std::string>& words)
     {
         m_result.words.insert(m_result.words.end(), words.begin(), words.end());
-    }
-
-    /// What an operand or `-i` names; empty for other steps.
-    static std::string name_read_by(const Step& step)
-    {
-        const bool reads = step.oiiotool && step.oiiotool->role == Role::reads && step.words.size() == 2;
-        return step.is_operand() || reads ? step.words.back() : "";
     }
 
     void note_image(const std::string& name)

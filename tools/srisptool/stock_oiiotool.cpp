@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
@@ -17,6 +18,7 @@
 #include "../common/shell_quote.h"
 #include "../common/temporary_folder.h"
 #include "child_process.h"
+#include "line_files.h"
 #include "messages.h"
 #include "output_guard.h"
 #include "rewriter.h"
@@ -63,11 +65,12 @@ std::string json_text(const nlohmann::json& content)
 
 void write_file(const fs::path& path, const std::string& text)
 {
+    errno = 0;
     std::ofstream file(path, std::ios::binary);
     file << text;
     file.close();
     if (!file)
-        fail("cannot write '" + path.string() + "' (is the disk full? TMPDIR may name another folder)");
+        fail("cannot write '" + path.string() + "': " + std::strerror(errno) + " (TMPDIR may name another folder)");
 }
 
 /// A name that the user made by an expression of an image's name, such as {TOP.filename}, may lie in our folder, where
@@ -76,9 +79,8 @@ void refuse_lost_outputs(const fs::path& folder, const Rewritten& rewritten)
 {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
-        const bool ours = name == "lock" || name == kGuardLink || name == kStartedOutputs ||
-                          entry.path().extension() == ".srisp" || entry.path().extension() == ".json" ||
-                          rewritten.notes.count(name) > 0;
+        const bool ours = name == kGuardLink || name == kStartedOutputs || entry.path().extension() == ".srisp" ||
+                          entry.path().extension() == ".json" || rewritten.notes.count(name) > 0;
         if (!ours)
             fail("output '" + entry.path().string() +
                  "' was lost: after one of our commands {TOP.filename} is a temporary "
@@ -178,6 +180,7 @@ void run_unchanged(const std::vector<Step>& steps)
         else if (step.is_named("quiet"))
             words.push_back("-q");
     }
+    restore_file_limit_signal(); // without the guard oiiotool would take a file that is cut off for complete
     become(words, environment_with_plugin(plugin_folder()));
 }
 
@@ -195,6 +198,7 @@ int run_rewritten(const std::string& program, const std::vector<Step>& steps)
     options.notes = !contains(steps, "quiet") && !contains(steps, "q");
     options.progress = options.notes && isatty(STDERR_FILENO) && !contains(steps, "no-progress");
     Rewritten rewritten = rewrite(steps, options);
+    refuse_inputs_as_outputs(steps);
     for (const std::string& warning : rewritten.warnings)
         std::fprintf(stderr, "srisptool: WARNING: %s\n", warning.c_str());
     for (const JobFile& file : rewritten.files)
@@ -205,6 +209,7 @@ int run_rewritten(const std::string& program, const std::vector<Step>& steps)
     fs::create_symlink(plugins / "output_guard.so", folder.path() / kGuardLink);
     set_variable(environment, "LD_PRELOAD", (folder.path() / kGuardLink).string(), true);
     set_variable(environment, kGuardListVariable, (folder.path() / kStartedOutputs).string());
+    set_variable(environment, kGuardStreamVariable, std::to_string(error_stream(steps)));
     // Where the plugin shows its progress: its stderr is a pipe.
     if (options.progress)
         set_variable(environment, kTerminalVariable, std::to_string(dup(STDERR_FILENO)));

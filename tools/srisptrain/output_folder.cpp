@@ -10,6 +10,10 @@
 #include <filesystem>
 
 #include "../common/failure.h"
+#include "anchor_start.h"
+#include "base/input_file.h"
+#include "base/input_files.h"
+#include "model/model_files.h"
 
 namespace srisp::tool {
 
@@ -45,6 +49,31 @@ void OutputFolder::remove(const std::string& name)
     fs::remove(file(name), error);
     if (error)
         fail("cannot remove '" + file(name) + "': " + error.message());
+}
+
+static bool holds(const std::string& path, const std::string& text)
+{
+    const auto there = read_text_file(path, text.size());
+    return there && *there == text;
+}
+
+void refuse_inputs_as_outputs(const LoadedRecipe& loaded)
+{
+    const TrainingRecipe& recipe = loaded.recipe;
+    InputFiles inputs;
+    for (const std::string& file : loaded.files)
+        inputs.add("recipe", file);
+    for (const std::string& model : { recipe.init, recipe.anchor_fit.from })
+        if (const auto file = find_model_file(model))
+            inputs.add("model", *file);
+    std::error_code error;
+    for (fs::directory_iterator entry(recipe.pack, error), end; !error && entry != end; entry.increment(error))
+        inputs.add("file of the pack", entry->path().string());
+    for (const char* name : { kCheckpointFile, kBestFile, kRecipeFile, kCsvLog, kJsonLog, kAnchorPairsFile }) {
+        const std::string output = recipe.output + "/" + name;
+        if (name != kRecipeFile || !holds(output, recipe_text(recipe)))
+            require(inputs.check_output(output));
+    }
 }
 
 std::map<std::string, std::string> origin_of(const TrainingRecipe& recipe, const std::string& pack_hash)

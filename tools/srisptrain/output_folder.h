@@ -29,6 +29,10 @@ private:
     int m_lock;
 };
 
+/// Fails where the training would write onto a file that it reads: a recipe (but one that it would write again as it
+/// is), the model that it starts from, or a file of the pack.
+void refuse_inputs_as_outputs(const train::LoadedRecipe& loaded);
+
 /// What checkpoints keep of a training's origin.
 std::map<std::string, std::string> origin_of(const train::TrainingRecipe& recipe, const std::string& pack_hash);
 

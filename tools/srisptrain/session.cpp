@@ -7,6 +7,7 @@
 
 #include "../common/failure.h"
 #include "model/model_files.h"
+#include "output_folder.h"
 #include "train/run/model_file.h"
 #include "train/samples/sample_maker.h"
 #include "train/tensors/torch_api.h"
@@ -99,6 +100,7 @@ Session open_session(const TrainOptions& options)
     session.recipe = recipe_of(options);
     const TrainingRecipe& recipe = session.settings();
     const Membership membership = membership_of(options);
+    refuse_inputs_as_outputs(session.recipe);
     for (const auto& [count, name] :
          { std::pair(recipe.trainer.pairs, "pairs"), std::pair(recipe.trainer.unpaired, "unpaired") })
         if (count > 0 && count < membership.size)

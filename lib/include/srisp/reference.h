@@ -43,6 +43,10 @@ SRISP_API Expected<std::string> choose_reference(const std::string& pattern, std
 SRISP_API Expected<std::string> choose_reference(const std::vector<std::string>& patterns, std::uint64_t seed,
                                                  const std::string& photo_name);
 
+/// All files that `load_reference` may read for `path`: it, and the names of JSON files that would describe its
+/// samples.
+SRISP_API std::vector<std::string> reference_files(const std::string& path);
+
 /// Path and state (inode, size, modification time in ns) of all files that `load_reference` reads for `path`: a key for
 /// what was made of it.
 SRISP_API std::string reference_state(const std::string& path);

@@ -103,9 +103,8 @@ Expected<LoadedRecipe> load_recipe(const std::string& name_or_path, const std::v
     const Expected<std::string> path = find_recipe(name_or_path, "");
     if (!path)
         return path.error();
-    LoadedRecipe loaded{ {}, name_of(*path) };
-    std::vector<std::string> users;
-    if (Status status = read_into(loaded.recipe, *path, users); !status)
+    LoadedRecipe loaded{ {}, name_of(*path), {} };
+    if (Status status = read_into(loaded.recipe, *path, loaded.files); !status)
         return status.error();
     for (const std::string& assignment : assignments) {
         const Expected<json> object = parse_assignment(assignment);

@@ -52,7 +52,8 @@ struct TrainingRecipe {
 /// A recipe and the file that it came from.
 struct LoadedRecipe {
     TrainingRecipe recipe;
-    std::string name; ///< of the file, without its extension
+    std::string name;               ///< of the file, without its extension
+    std::vector<std::string> files; ///< that one, and those that it builds on
 };
 
 /// Reads the recipe with this name or path (names are those of `share/srisp/train`), those that it builds on first,

@@ -2,13 +2,23 @@
 #include "train/samples/packed_images.h"
 
 #include <map>
+#include <stdexcept>
 
 namespace srisp::train {
+
+/// Throws, as LibTorch does, where the pack is no longer what it was when it was opened.
+static std::vector<std::uint16_t> values_of(const PackedImages& images, std::size_t entry)
+{
+    auto values = images.image(entry);
+    if (!values)
+        throw std::runtime_error(values.error().message);
+    return std::move(*values);
+}
 
 torch::Tensor packed_image(const PackedImages& images, std::size_t entry)
 {
     auto result = torch::empty({ 3, images.size, images.size });
-    const std::uint16_t* packed = images.image(entry);
+    const std::vector<std::uint16_t> packed = values_of(images, entry);
     float* value = result.data_ptr<float>();
     for (std::int64_t i = 0; i < result.numel(); ++i)
         value[i] = static_cast<float>(packed[i]) / 65535.0f;
@@ -68,14 +78,12 @@ int SceneSource::draw_other(int index, bool same_group, double whole_share, Rand
 
 torch::Tensor SceneSource::images(const std::vector<int>& entries, const torch::Device& device) const
 {
-    const std::int64_t size = m_images.size, count = 3 * size * size;
+    const std::int64_t size = m_images.size;
     const auto values = torch::empty({ static_cast<std::int64_t>(entries.size()), 3, size, size });
     float* value = values.data_ptr<float>();
-    for (const int index : entries) {
-        const std::uint16_t* pixel = m_images.image(index);
-        for (std::int64_t i = 0; i < count; ++i)
-            *value++ = static_cast<float>(pixel[i]) * (1.0f / 65535);
-    }
+    for (const int index : entries)
+        for (const std::uint16_t pixel : values_of(m_images, std::size_t(index)))
+            *value++ = static_cast<float>(pixel) * (1.0f / 65535);
     return values.to(device);
 }
 

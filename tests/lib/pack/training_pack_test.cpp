@@ -86,7 +86,7 @@ TEST_CASE("a training pack is read back as it was written")
     CHECK(photos.entries[2].open);
     CHECK(photos.entries[2].licence == "CC0");
     CHECK(photos.entries[2].white_balance[1] == 0);
-    CHECK(photos.image(2)[5] == std::uint16_t((2 * kImage + 5) * 7));
+    CHECK((*photos.image(2))[5] == std::uint16_t((2 * kImage + 5) * 7));
     const PackEntry& raw = (*pack)->raws().entries.at(0);
     CHECK(raw.validation);
     CHECK(raw.group == "Nikon D1");
@@ -99,6 +99,21 @@ TEST_CASE("a training pack is read back as it was written")
     CHECK(cameras.wavelengths.back() == 780);
     CHECK(cameras.reflectance.size() == 3 * kPackWavelengths);
     CHECK((*pack)->hash().compare(0, 6, "xxh64:") == 0);
+}
+
+TEST_CASE("a pack that is made shorter while it is open gives errors, not images")
+{
+    const ScratchFolder scratch;
+    write_tiny_pack(scratch.path("p"));
+    const auto pack = TrainingPack::open(scratch.path("p"));
+    REQUIRE(pack);
+    const std::string photos = scratch.path("p/photos.safetensors");
+    fs::resize_file(photos, fs::file_size(photos) - 1);
+    CHECK((*pack)->photos().image(0));
+    const auto cut = (*pack)->photos().image(2);
+    REQUIRE_FALSE(cut);
+    CHECK(cut.error().message.find("pack '" + scratch.path("p") +
+                                   "': photos.safetensors was made shorter while it was read: it had ") == 0);
 }
 
 TEST_CASE("a pack may lack parts, but not all of them")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -51,7 +52,10 @@ struct SmallImages {
             images.entries.push_back(entry);
             paint(size, srisp::train::Random(seed, i));
         }
-        images.pixels = pixels.data();
+        images.read = [this, count = std::size_t(3) * size * size](std::size_t entry, std::uint16_t* values) {
+            std::copy_n(pixels.data() + entry * count, count, values);
+            return srisp::Status();
+        };
     }
     SmallImages(const SmallImages&) = delete;
     SmallImages& operator=(const SmallImages&) = delete;

@@ -88,14 +88,57 @@ TEST_CASE("the next run removes what a killed run left, and its unfinished outpu
 
 TEST_CASE("folders of runs that live, and folders of others, stay")
 {
-    const ScratchFolder scratch;
+    const ScratchFolder scratch, outputs;
     const TemporaryBase base(scratch.path());
     const TemporaryFolder living;
-    for (const char* name : { "srisptool-notes", "srisptool-1-abcdef-2", "srisp-12-abcdef", "srisptool-12-abcdef" })
+    const std::string unfinished = outputs.file("a.0123abcd.temp.exr");
+    for (const char* name : { "srisptool-notes", "srisptool-1-ABCdef", ".srisptool.partial-0123456789abcdef" }) {
         fs::create_directory(scratch.path(name));
+        fs::permissions(scratch.path(name), fs::perms::owner_all);
+        scratch.file(name + std::string("/lock"));
+        scratch.file(name + std::string("/") + kStartedOutputs, unfinished + '\0');
+    }
     const TemporaryFolder folder;
     CHECK(fs::exists(living.path()));
-    CHECK(count(scratch.path()) == 6); // the last one has no lock: it may be about to get one
+    CHECK(count(scratch.path()) == 5);
+    CHECK(fs::exists(unfinished));
+}
+
+TEST_CASE("of what a leftover lists nothing goes but files of this user under names that oiiotool made")
+{
+    const ScratchFolder scratch, outputs;
+    const TemporaryBase base(scratch.path());
+    const std::string photo = outputs.file("photo.jpg"), link = outputs.path("b.0123abcd.temp.exr"),
+                      folder = outputs.path("c.0123abcd.temp.exr"), inside = outputs.path("d.0123abcd.temp.exr/photo");
+    fs::create_symlink(photo, link);
+    fs::create_directory(folder);
+    fs::create_directory(fs::path(inside).parent_path());
+    outputs.file("d.0123abcd.temp.exr/photo");
+    leave_folder_behind(photo + '\0' + link + '\0' + folder + '\0' + inside + '\0' + '\0' + outputs.path("gone"));
+    REQUIRE(count(scratch.path()) == 1);
+    {
+        const TemporaryFolder next;
+        CHECK(count(scratch.path()) == 1);
+    }
+    for (const std::string& path : { photo, link, folder, inside })
+        CHECK(fs::exists(path));
+}
+
+TEST_CASE("a leftover that others may write to is not touched, and a pipe in one is not waited for")
+{
+    const ScratchFolder scratch, outputs;
+    const TemporaryBase base(scratch.path());
+    const std::string unfinished = outputs.file("a.0123abcd.temp.exr");
+    leave_folder_behind(unfinished);
+    const fs::path left = *fs::directory_iterator(scratch.path());
+    fs::permissions(left, fs::perms::all);
+    CHECK(count(TemporaryFolder().path().parent_path()) == 2);
+    CHECK(fs::exists(unfinished));
+    fs::permissions(left, fs::perms::owner_all);
+    fs::remove(left / kStartedOutputs);
+    REQUIRE(mkfifo((left / kStartedOutputs).c_str(), 0600) == 0);
+    const TemporaryFolder next;
+    CHECK(count(scratch.path()) == 1);
 }
 
 TEST_CASE("a TMPDIR whose name oiiotool would scan is not used")

@@ -2,6 +2,7 @@
 #include "../../../tools/srisppack/linear_set.h"
 
 #include <cmath>
+#include <filesystem>
 
 #include <doctest/doctest.h>
 
@@ -115,4 +116,20 @@ TEST_CASE("sets that are damaged or of another kind are refused")
           "set '" + path +
               "': tensor 'raw' is F32 [1, 31, 40, 3], must be F16 or F32 [N, height, width, 3] with 32 "
               "to 1024 pixels a side");
+}
+
+TEST_CASE("a set that is made shorter while it is packed is an error for each image that is gone")
+{
+    const Set set;
+    const std::string path = set.scratch.path("set.safetensors");
+    const std::vector<PackTask> tasks = set.tasks();
+    const auto size = std::filesystem::file_size(path);
+    const auto image = std::uintmax_t(2 * 40 * 32 * 3);
+    std::filesystem::resize_file(path, size - image);
+    CHECK(tasks[0].run());
+    const auto cut = tasks[2].run();
+    REQUIRE_FALSE(cut);
+    CHECK(cut.error().message.find("set '" + path + "' was made shorter while it was read: it had ") == 0);
+    std::filesystem::resize_file(path, 0);
+    CHECK_FALSE(tasks[0].run());
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../../../tools/srisptool/messages.h"
 
+#include <filesystem>
+
 #include <doctest/doctest.h>
 
 using namespace srisp::tool;
@@ -104,4 +106,17 @@ TEST_CASE("lines are shown as soon as they are whole, the rest at the end")
     CHECK(messages.take("te\nx\ny") == "srisp: note\nx\n");
     CHECK(messages.finish() == "y\n");
     CHECK(messages.finish() == "");
+}
+
+TEST_CASE("a write that failed is told once, with name and reason, in place of what oiiotool and libjpeg say")
+{
+    const std::string failed = "srisp output guard: File too large: /out/a.0123abcd.temp.jpg\n";
+    const std::string told = "srisptool: ERROR: output '/out/a.jpg' cannot be written: File too large\n";
+    CHECK(shown(failed + "Output file write error --- out of disk space?\n") == told);
+    CHECK(shown(failed + "oiiotool ERROR: -o : Failed OpenEXR write\noiiotool ERROR: -otex : again\n") == told);
+    CHECK(shown("note\n" + failed + "other\n") == "note\nother\n" + told);
+    CHECK(shown("oiiotool ERROR: -o : Failed OpenEXR write\n") == "oiiotool ERROR: -o : Failed OpenEXR write\n");
+    CHECK(
+        shown("srisp output guard: No space: " + (std::filesystem::current_path() / "b: c.0123abcd.temp.png").string() +
+              "\n") == "srisptool: ERROR: output 'b: c.png' cannot be written: No space\n");
 }
