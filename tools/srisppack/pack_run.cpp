@@ -11,6 +11,7 @@
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
+#include "base/guarded.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "camera_folder.h"
@@ -49,7 +50,7 @@ Expected<PackedScene> run_task(const PackTask& task)
     try {
         return task.run();
     } catch (const std::exception& error) {
-        return Error{ "'" + task.name + "': " + error.what() };
+        return Error{ "'" + task.name + "': " + thrown_text(error) };
     }
 }
 
