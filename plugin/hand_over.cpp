@@ -39,8 +39,9 @@ public:
         const SlotLevel* level = find_level_of(slot.get(), subimage, miplevel);
         if (!level)
             return Error{ m_name + ": is no longer kept; a later frame has taken its place" };
-        const std::size_t row = std::size_t(level->spec.width) * level->spec.nchannels;
-        std::copy_n(level->pixels.data() + row * y0, row * (y1 - y0), rows);
+        const std::size_t row = std::size_t(level->spec.width) * std::size_t(level->spec.nchannels);
+        for (int y = y0; y < y1; ++y)
+            level->rows.get(std::size_t(y), rows + row * std::size_t(y - y0));
         return {};
     }
 

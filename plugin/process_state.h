@@ -9,14 +9,15 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include "kept_rows.h"
 #include "result/kept_results.h"
 
 namespace srisp::plugin {
 
 /// One level of an image as our writer got it.
 struct SlotLevel {
-    OIIO::ImageSpec spec;      ///< float
-    std::vector<float> pixels; ///< all channels of the data window
+    OIIO::ImageSpec spec; ///< float
+    KeptRows rows;        ///< all channels of the data window
 };
 /// An image that was handed over.
 struct Slot {

@@ -2,24 +2,18 @@
 #include "srisp_input.h"
 
 #include <algorithm>
-#include <exception>
 
+#include "base/guarded.h"
 #include "process_state.h"
 
 namespace srisp::plugin {
 
 namespace {
 
-/// Runs a step of the reader; what libraries throw becomes an error.
-template<class Step> Status guarded(Step step)
+/// Runs a step of the reader; what is thrown in it becomes an error.
+template<class Step> Status guarded_step(const Step& step)
 {
-    try {
-        return step();
-    } catch (const std::exception& thrown) {
-        return Error{ std::string("srisp: ") + thrown.what() };
-    } catch (...) {
-        return Error{ "srisp: unknown exception" };
-    }
+    return guarded("srisp", {}, step);
 }
 
 } // namespace
@@ -33,7 +27,7 @@ int SrispInput::supports(OIIO::string_view feature) const
 bool SrispInput::valid_file(const std::string& name) const
 {
     bool ours = false;
-    const Status looked = guarded([&]() -> Status {
+    const Status looked = guarded_step([&]() -> Status {
         ours = is_our_name(name);
         return {};
     });
@@ -47,7 +41,7 @@ bool SrispInput::open(const std::string& name, OIIO::ImageSpec& spec, const OIIO
     if (config.get_int_attribute("nowait") || !valid_file(name))
         return fail("'" + name + "': is not a recipe of srisp's");
     close();
-    const Status opened = guarded([&]() -> Status {
+    const Status opened = guarded_step([&]() -> Status {
         auto opened_name = open_name(name, config);
         if (!opened_name)
             return opened_name.error();
@@ -117,7 +111,7 @@ bool SrispInput::seek_subimage(int subimage, int miplevel)
     if (subimage == m_subimage && miplevel == m_miplevel)
         return true;
     bool found = false;
-    const Status sought = guarded([&] { return seek(subimage, miplevel, found); });
+    const Status sought = guarded_step([&] { return seek(subimage, miplevel, found); });
     if (!sought)
         return fail(sought.error().message);
     if (found) {
@@ -128,11 +122,12 @@ bool SrispInput::seek_subimage(int subimage, int miplevel)
 }
 
 /// What reading from a file has shown goes to the user here; pixels are on their way to another command.
-bool SrispInput::finish_file_read(bool read) const
+template<class Read> bool SrispInput::read_file(const Read& read) const
 {
-    const ImageFile& file = *m_opened.file;
-    if (!read)
-        return fail(file.geterror());
+    ImageFile& file = *m_opened.file;
+    const Status done = guarded_step([&]() -> Status { return read(file) ? Status() : Error{ file.geterror() }; });
+    if (!done)
+        return fail(done.error().message);
     if (m_opened.notes)
         process_state().results.print_notes(file.where(), file.reading_notes());
     return true;
@@ -149,13 +144,14 @@ bool SrispInput::read_native_scanlines(int subimage, int miplevel, int ybegin, i
     if (!seek_subimage(subimage, miplevel))
         return false;
     if (m_opened.file)
-        return finish_file_read(m_opened.file->read_native_scanlines(subimage, miplevel, ybegin, yend, z, data));
+        return read_file(
+            [&](ImageFile& file) { return file.read_native_scanlines(subimage, miplevel, ybegin, yend, z, data); });
     const int y0 = ybegin - m_spec.y, y1 = std::min(yend - m_spec.y, m_spec.height);
     if (y0 < 0 || y0 > y1)
         return fail("scanlines " + std::to_string(ybegin) + " to " + std::to_string(yend) + " lie outside the image");
     const int width = m_spec.width;
     const std::size_t row = std::size_t(width) * m_spec.nchannels;
-    const Status read = guarded([&] {
+    const Status read = guarded_step([&] {
         return m_opened.result->read(subimage, miplevel, threads(), 0, width, y0, y1, static_cast<float*>(data), row);
     });
     return read || fail(read.error().message);
@@ -167,7 +163,7 @@ bool SrispInput::read_native_tile(int subimage, int miplevel, int x, int y, int 
     if (!seek_subimage(subimage, miplevel))
         return false;
     if (m_opened.file)
-        return finish_file_read(m_opened.file->read_native_tile(subimage, miplevel, x, y, z, data));
+        return read_file([&](ImageFile& file) { return file.read_native_tile(subimage, miplevel, x, y, z, data); });
     const int x0 = x - m_spec.x, y0 = y - m_spec.y;
     if (!m_spec.tile_width || x0 < 0 || y0 < 0 || x0 >= m_spec.width || y0 >= m_spec.height)
         return fail("the image has no tile at " + std::to_string(x) + ", " + std::to_string(y));
@@ -177,7 +173,7 @@ bool SrispInput::read_native_tile(int subimage, int miplevel, int x, int y, int 
     float* tile = static_cast<float*>(data);
     std::fill_n(tile, row * m_spec.tile_height, 0.0f);
     const Status read =
-        guarded([&] { return m_opened.result->read(subimage, miplevel, threads(), x0, x1, y0, y1, tile, row); });
+        guarded_step([&] { return m_opened.result->read(subimage, miplevel, threads(), x0, x1, y0, y1, tile, row); });
     return read || fail(read.error().message);
 }
 
@@ -185,17 +181,19 @@ bool SrispInput::read_native_deep_scanlines(int subimage, int miplevel, int ybeg
                                             int chend, OIIO::DeepData& deepdata)
 {
     const lock_guard lock(*this);
-    return m_opened.file && finish_file_read(m_opened.file->read_native_deep_scanlines(subimage, miplevel, ybegin, yend,
-                                                                                       z, chbegin, chend, deepdata));
+    return m_opened.file && read_file([&](ImageFile& file) {
+               return file.read_native_deep_scanlines(subimage, miplevel, ybegin, yend, z, chbegin, chend, deepdata);
+           });
 }
 
 bool SrispInput::read_native_deep_tiles(int subimage, int miplevel, int xbegin, int xend, int ybegin, int yend,
                                         int zbegin, int zend, int chbegin, int chend, OIIO::DeepData& deepdata)
 {
     const lock_guard lock(*this);
-    return m_opened.file &&
-           finish_file_read(m_opened.file->read_native_deep_tiles(subimage, miplevel, xbegin, xend, ybegin, yend,
-                                                                  zbegin, zend, chbegin, chend, deepdata));
+    return m_opened.file && read_file([&](ImageFile& file) {
+               return file.read_native_deep_tiles(subimage, miplevel, xbegin, xend, ybegin, yend, zbegin, zend, chbegin,
+                                                  chend, deepdata);
+           });
 }
 
 } // namespace srisp::plugin

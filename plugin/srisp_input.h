@@ -45,7 +45,7 @@ private:
     bool fail(const std::string& message) const;
 
     Status seek(int subimage, int miplevel, bool& found);
-    bool finish_file_read(bool read) const;
+    template<class Read> bool read_file(const Read& read) const;
 
     OpenedName m_opened;
     int m_subimage = -1, m_miplevel = -1;

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 
 #include <nlohmann/json.hpp>
 #include <srisp/metadata.h>
 
+#include "base/guarded.h"
 #include "base/output_file.h"
+#include "container/image_limits.h"
 #include "hand_over.h"
 #include "open_name.h"
 #include "recipe/frame_pattern.h"
@@ -83,34 +84,41 @@ Status SrispOutput::begin(const std::string& name)
     return {};
 }
 
+bool SrispOutput::succeeds(const std::function<Status()>& step)
+{
+    const Status done = guarded("srisp", {}, step);
+    return done || fail(done.error().message);
+}
+
+Status SrispOutput::begin_level(const std::string& name, const OIIO::ImageSpec& spec, OpenMode mode)
+{
+    if (spec.deep)
+        return Error{ name + ": a deep image cannot be unprocessed; flatten it first" };
+    if (spec.depth > 1)
+        return Error{ name + ": a volume cannot be unprocessed" };
+    if (const Status size = check_size(spec); !size)
+        return Error{ name + ": cannot be unprocessed: it " + size.error().message };
+    if (mode == Create) {
+        m_slot.reset();
+        if (Status begun = begin(name); !begun)
+            return begun;
+    }
+    if (!m_slot)
+        return Error{ name + ": is not open" };
+    m_spec = spec;
+    m_spec.set_format(OIIO::TypeFloat);
+    m_spec.channelformats.clear();
+    if (mode != AppendMIPLevel || m_slot->subimages.empty())
+        m_slot->subimages.emplace_back();
+    m_slot->subimages.back().push_back(
+        { m_spec, KeptRows(std::size_t(m_spec.height), std::size_t(m_spec.width) * std::size_t(m_spec.nchannels)) });
+    m_tile_row = -1;
+    return {};
+}
+
 bool SrispOutput::open(const std::string& name, const OIIO::ImageSpec& spec, OpenMode mode)
 {
-    try {
-        if (spec.deep)
-            return fail(name + ": a deep image cannot be unprocessed; flatten it first");
-        if (spec.depth > 1)
-            return fail(name + ": a volume cannot be unprocessed");
-        if (spec.width < 1 || spec.height < 1)
-            return fail(name + ": an image of " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
-                        " pixels cannot be unprocessed");
-        if (mode == Create) {
-            m_slot.reset();
-            if (const Status begun = begin(name); !begun)
-                return fail(begun.error().message);
-        }
-        if (!m_slot)
-            return fail(name + ": is not open");
-        m_spec = spec;
-        m_spec.set_format(OIIO::TypeFloat);
-        m_spec.channelformats.clear();
-        if (mode != AppendMIPLevel || m_slot->subimages.empty())
-            m_slot->subimages.emplace_back();
-        m_slot->subimages.back().push_back(
-            { m_spec, std::vector<float>(std::size_t(m_spec.image_pixels()) * m_spec.nchannels) });
-        return true;
-    } catch (const std::exception& thrown) {
-        return fail(name + ": " + thrown.what());
-    }
+    return succeeds([&] { return begin_level(name, spec, mode); });
 }
 
 bool SrispOutput::open(const std::string& name, int subimages, const OIIO::ImageSpec* specs)
@@ -122,18 +130,16 @@ bool SrispOutput::close()
 {
     if (!m_slot)
         return true;
-    Status finished;
-    try {
-        finished = finish();
-    } catch (const std::exception& thrown) {
-        finished = Error{ m_path + ": " + thrown.what() };
-    }
+    const bool finished = succeeds([&] { return finish(); });
     m_slot.reset();
-    return finished || fail(finished.error().message);
+    return finished;
 }
 
 Status SrispOutput::finish()
 {
+    for (auto& levels : m_slot->subimages)
+        for (SlotLevel& level : levels)
+            level.rows.pack();
     const std::string id = process_state().slots.keep(m_slot);
     if (m_job.action == Recipe::Action::print)
         if (const Status printed = print_parameters(m_job, id); !printed)
@@ -150,12 +156,13 @@ bool SrispOutput::write_scanline(int y, int z, OIIO::TypeDesc format, const void
     const int row = y - m_spec.y;
     if (!m_slot || row < 0 || row >= m_spec.height)
         return fail("scanline " + std::to_string(y) + " lies outside the image");
-    std::vector<unsigned char> scratch;
-    m_spec.auto_stride(xstride, format, m_spec.nchannels);
-    const auto* native = static_cast<const float*>(to_native_scanline(format, data, xstride, scratch, 0, y, z));
-    const std::size_t length = std::size_t(m_spec.width) * m_spec.nchannels;
-    std::copy_n(native, length, m_slot->subimages.back().back().pixels.data() + length * row);
-    return true;
+    return succeeds([&]() -> Status {
+        std::vector<unsigned char> scratch;
+        m_spec.auto_stride(xstride, format, m_spec.nchannels);
+        const void* const native = to_native_scanline(format, data, xstride, scratch, 0, y, z);
+        rows().put(std::size_t(row), static_cast<const float*>(native));
+        return {};
+    });
 }
 
 bool SrispOutput::write_tile(int x, int y, int z, OIIO::TypeDesc format, const void* data, OIIO::stride_t xstride,
@@ -164,17 +171,22 @@ bool SrispOutput::write_tile(int x, int y, int z, OIIO::TypeDesc format, const v
     const int x0 = x - m_spec.x, y0 = y - m_spec.y;
     if (!m_slot || x0 < 0 || y0 < 0 || x0 >= m_spec.width || y0 >= m_spec.height)
         return fail("the tile at " + std::to_string(x) + ", " + std::to_string(y) + " lies outside the image");
-    std::vector<unsigned char> scratch;
-    m_spec.auto_stride(xstride, ystride, zstride, format, m_spec.nchannels, m_spec.tile_width, m_spec.tile_height);
-    const auto* native =
-        static_cast<const float*>(to_native_tile(format, data, xstride, ystride, zstride, scratch, 0, x, y, z));
-    const std::size_t columns = std::min(m_spec.tile_width, m_spec.width - x0) * std::size_t(m_spec.nchannels);
-    const int rows = std::min(m_spec.tile_height, m_spec.height - y0);
-    float* target = m_slot->subimages.back().back().pixels.data();
-    for (int row = 0; row < rows; ++row)
-        std::copy_n(native + std::size_t(row) * m_spec.tile_width * m_spec.nchannels, columns,
-                    target + (std::size_t(y0 + row) * m_spec.width + x0) * m_spec.nchannels);
-    return true;
+    return succeeds([&]() -> Status {
+        if (y0 != m_tile_row) // the ones above are complete, as a rule
+            rows().pack();
+        m_tile_row = y0;
+        std::vector<unsigned char> scratch;
+        m_spec.auto_stride(xstride, ystride, zstride, format, m_spec.nchannels, m_spec.tile_width, m_spec.tile_height);
+        const auto* native =
+            static_cast<const float*>(to_native_tile(format, data, xstride, ystride, zstride, scratch, 0, x, y, z));
+        const std::size_t channels = std::size_t(m_spec.nchannels);
+        const std::size_t columns = std::size_t(std::min(m_spec.tile_width, m_spec.width - x0)) * channels;
+        const std::size_t tile_row = std::size_t(m_spec.tile_width) * channels;
+        for (int row = 0; row < std::min(m_spec.tile_height, m_spec.height - y0); ++row)
+            rows().put_part(std::size_t(y0 + row), std::size_t(x0) * channels, columns,
+                            native + std::size_t(row) * tile_row);
+        return {};
+    });
 }
 
 } // namespace srisp::plugin

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -29,12 +30,17 @@ public:
 
 private:
     bool fail(const std::string& message);
+    /// Runs a step of the writer; what is thrown in it is its failure, too.
+    bool succeeds(const std::function<Status()>& step);
     Status begin(const std::string& name);
+    Status begin_level(const std::string& name, const OIIO::ImageSpec& spec, OpenMode mode);
     Status finish();
+    KeptRows& rows() { return m_slot->subimages.back().back().rows; }
 
     std::string m_path;
     Recipe m_job;
     std::shared_ptr<Slot> m_slot;
+    int m_tile_row = -1; ///< the last tile's
 };
 
 } // namespace srisp::plugin

@@ -9,6 +9,7 @@
 #include <srisp/model.h>
 
 #include "apply/tone_map.h"
+#include "base/guarded.h"
 #include "base/parallel.h"
 #include "model/model_data.h"
 
@@ -257,9 +258,9 @@ int Applier::halo() const
 Expected<std::shared_ptr<const Applier>> Applier::create(const Model& model, const Parameters& parameters,
                                                          Direction direction, Precision precision)
 {
-    if (Status status = check_parameters(parameters, model); !status)
-        return status.error();
-    try {
+    return guarded("apply", {}, [&]() -> Expected<std::shared_ptr<const Applier>> {
+        if (Status status = check_parameters(parameters, model); !status)
+            return status.error();
         const bool reverse = direction == Direction::reverse;
         auto pipeline = std::make_unique<State>();
         pipeline->direction = direction;
@@ -273,17 +274,15 @@ Expected<std::shared_ptr<const Applier>> Applier::create(const Model& model, con
             pipeline->gain[c] = reverse ? 1 / parameters.gain : parameters.gain;
         }
         return std::shared_ptr<const Applier>(new Applier(std::move(pipeline)));
-    } catch (const std::exception& error) {
-        return Error{ std::string("apply: ") + error.what() };
-    }
+    });
 }
 
 Status Applier::run(const ImagePart& source, Roi roi, MutableImageView target, const ApplyOptions& options) const
 {
-    const Job job{ source, roi, target };
-    if (Status status = check_job(job, halo()); !status)
-        return status;
-    try {
+    return guarded("apply", {}, [&]() -> Status {
+        const Job job{ source, roi, target };
+        if (Status status = check_job(job, halo()); !status)
+            return status;
         const int threads = options.threads > 0 ? options.threads : OIIO::get_int_attribute("threads", 1);
         Progress progress(options, std::int64_t(target.width) * target.height);
         if (share_memory(source.pixels, target))
@@ -291,9 +290,7 @@ Status Applier::run(const ImagePart& source, Roi roi, MutableImageView target, c
         else
             run_tiles(*m_state, job, threads, progress);
         return progress.cancelled() ? Status(Error{ "apply: cancelled" }) : Status();
-    } catch (const std::exception& error) {
-        return Error{ std::string("apply: ") + error.what() };
-    }
+    });
 }
 
 Status Applier::run(ImageView source, MutableImageView target, const ApplyOptions& options) const

@@ -9,6 +9,7 @@
 #include <srisp/model.h>
 
 #include "apply/tone_map.h"
+#include "base/guarded.h"
 #include "base/parallel.h"
 
 namespace srisp {
@@ -66,7 +67,7 @@ Status tone_map_values(const Model& model, const Parameters& parameters, Directi
                       " pixels, and a table holds single colours: needs a pointwise model (kernel size 1)" };
     if (Status status = check_parameters(parameters, model); !status)
         return status;
-    try {
+    return guarded("tone map", {}, [&]() -> Status {
         const ToneDictionary& dictionary =
             direction == Direction::reverse ? model_data(model).tone_reverse : model_data(model).tone_forward;
         Layers layers;
@@ -80,9 +81,7 @@ Status tone_map_values(const Model& model, const Parameters& parameters, Directi
         };
         parallel_tasks(blocks, 0, work);
         return {};
-    } catch (const std::exception& error) {
-        return Error{ std::string("tone map: ") + error.what() };
-    }
+    });
 }
 
 } // namespace srisp

@@ -6,6 +6,8 @@
 
 #include <lcms2.h>
 
+#include "color/icc_header.h"
+
 namespace srisp {
 
 namespace {
@@ -101,30 +103,20 @@ ColorTransformPtr matrix_transform(cmsHPROFILE profile, cmsHPROFILE srgb)
     return curves_and_matrix({ table(0), table(1), table(2) }, product(inverse(srgb_to_xyz), to_xyz));
 }
 
-std::string signature_text(cmsColorSpaceSignature signature)
-{
-    std::string text;
-    for (int shift = 24; shift >= 0; shift -= 8) {
-        const unsigned byte = signature >> shift & 0xff;
-        text += byte >= ' ' && byte <= '~' ? static_cast<char>(byte) : '?'; // of a damaged profile
-    }
-    text.erase(text.find_last_not_of(' ') + 1);
-    return text;
-}
-
 } // namespace
 
 Expected<ColorTransformPtr> color_transform_from_icc(const void* data, std::size_t size, int channels)
 {
+    const auto header = read_icc_header(data, size);
+    if (!header)
+        return header.error();
+    if (header->color_space != std::uint32_t(channels == 1 ? cmsSigGrayData : cmsSigRgbData))
+        return Error{ "its ICC profile is for " + icc_signature_text(header->color_space) + ", the image has " +
+                      (channels == 1 ? "grey" : "RGB") + " channels" };
     const auto context = std::make_shared<LcmsContext>();
     const Profile profile{ cmsOpenProfileFromMemTHR(context->context, data, static_cast<cmsUInt32Number>(size)) };
     if (!profile.handle)
         return Error{ "its ICC profile of " + std::to_string(size) + " bytes is damaged" };
-    const cmsColorSpaceSignature space = cmsGetColorSpace(profile.handle);
-    if (space != (channels == 1 ? cmsSigGrayData : cmsSigRgbData))
-        return Error{ "its ICC profile is for " + signature_text(space) + ", the image has " +
-                      (channels == 1 ? "grey" : "RGB") + " channels" };
-
     const Profile srgb{ cmsCreate_sRGBProfileTHR(context->context) };
     ColorTransformPtr result;
     if (channels == 3)

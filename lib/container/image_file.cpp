@@ -10,7 +10,9 @@
 #include "base/recently_kept.h"
 #include "color/color_encoding.h"
 #include "container/file_description.h"
+#include "container/image_limits.h"
 #include "container/reader_name.h"
+#include "container/size_in_header.h"
 #include "container/webp_input.h"
 #include "gain_map/find_gain_map.h"
 #include "jpeg/jpeg_damage.h"
@@ -49,6 +51,15 @@ const Container& container_of(const char* reader)
     return found == std::end(kContainers) ? kOther : *found;
 }
 
+/// Readers end some messages with a line's end, and add one of their own for each layer.
+std::string one_line(std::string text)
+{
+    text.erase(text.find_last_not_of(" \n") + 1);
+    for (std::size_t at; (at = text.find('\n')) != std::string::npos;)
+        text.replace(at, 1, "; ");
+    return text;
+}
+
 Expected<std::unique_ptr<OIIO::ImageInput>> open_by(const std::string& reader, const std::string& path,
                                                     const OIIO::ImageSpec& hints)
 {
@@ -58,7 +69,7 @@ Expected<std::unique_ptr<OIIO::ImageInput>> open_by(const std::string& reader, c
     OIIO::ImageSpec spec;
     if (input && input->open(path, spec, hints))
         return input;
-    const std::string reason = input ? input->geterror() : OIIO::geterror();
+    const std::string reason = one_line(input ? input->geterror() : OIIO::geterror());
     return Error{ reason.empty() ? "is damaged, its reader does not say how" : reason };
 }
 
@@ -104,6 +115,8 @@ Expected<std::unique_ptr<OIIO::ImageInput>> open_input(const std::string& path, 
     if (reader == kRawReader)
         if (Status status = check_raw(path, isolate); !status)
             return status.error();
+    if (const Status header = check_header(reader, path); !header)
+        return header.error();
     return open_by(reader, path, hints);
 }
 
@@ -187,8 +200,8 @@ bool ImageFile::seek_subimage(int subimage, int miplevel)
         return false;
     }
     OIIO::ImageSpec spec = m_inner->spec();
-    if (spec.width < 1 || spec.height < 1) {
-        errorfmt("{}: has {} x {} pixels", m_where, spec.width, spec.height);
+    if (const Status size = check_spec(spec); !size) {
+        errorfmt("{}: {}", m_where, size.error().message);
         return false;
     }
     if (container.straight_alpha)
@@ -223,6 +236,19 @@ bool ImageFile::seek_subimage(int subimage, int miplevel)
     return true;
 }
 
+Status ImageFile::check_spec(const OIIO::ImageSpec& spec) const
+{
+    if (Status size = check_size(spec); !size)
+        return size;
+    std::error_code no_file; // but a name that its reader understands
+    const std::uintmax_t bytes = std::filesystem::file_size(m_path, no_file);
+    if (no_file)
+        return {};
+    // The header of a JPEG was looked at before it was opened: it says how the file is coded, too.
+    const bool looked = std::strcmp(format_name(), "jpeg") == 0;
+    return looked ? Status() : check_claim(format_name(), std::uint64_t(spec.width), std::uint64_t(spec.height), bytes);
+}
+
 /// Nothing about it is an error: the photo is there without it.
 void ImageFile::look_for_gain_map(OIIO::ImageSpec& spec)
 {
@@ -249,7 +275,7 @@ bool ImageFile::accept(bool read, int y, void* data, std::size_t bytes)
 {
     if (read && !m_inner->has_error())
         return true;
-    std::string reason = m_inner->geterror();
+    std::string reason = one_line(m_inner->geterror());
     if (read && !m_notes.empty())
         return true; // told already
     if (std::strcmp(format_name(), "jpeg") == 0) {
@@ -274,7 +300,7 @@ bool ImageFile::accept(bool read, int y, void* data, std::size_t bytes)
 
 void ImageFile::put_right(void* data, int width, int height) const
 {
-    const std::size_t values = std::size_t(width) * static_cast<std::size_t>(height * m_spec.nchannels);
+    const std::size_t values = std::size_t(width) * std::size_t(height) * std::size_t(m_spec.nchannels);
     if (m_widens)
         widen(data, values);
     if (m_inverts && m_spec.format.size() == 2)

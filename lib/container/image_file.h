@@ -54,6 +54,7 @@ public:
 private:
     ImageFile(std::unique_ptr<OIIO::ImageInput> inner, const std::string& path, const OIIO::ImageSpec& config,
               const std::string& where);
+    Status check_spec(const OIIO::ImageSpec& spec) const;
     bool accept(bool read, int y, void* data, std::size_t bytes);
     void look_for_gain_map(OIIO::ImageSpec& spec);
     void put_right(void* data, int width, int height) const;

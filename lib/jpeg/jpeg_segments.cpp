@@ -24,13 +24,16 @@ int byte_at(std::string_view bytes, std::size_t at)
 /// Walks from one marker of a JPEG to the next. Scans are passed over.
 class MarkerWalk {
 public:
-    explicit MarkerWalk(std::string_view jpeg) : m_jpeg(jpeg) {}
+    /// `lenient`: passes over stray bytes before a marker; otherwise they end the walk.
+    explicit MarkerWalk(std::string_view jpeg, bool lenient = false) : m_jpeg(jpeg), m_lenient(lenient) {}
 
     /// Goes to the next marker; false where there is none, or a segment is cut.
     bool next()
     {
         if (m_code == kStartOfScan)
             pass_scan();
+        if (m_lenient)
+            pass_strays();
         while (m_end + 1 < m_jpeg.size() && byte_at(m_jpeg, m_end) == 0xff && byte_at(m_jpeg, m_end + 1) == 0xff)
             ++m_end; // fill bytes
         if (m_end + 1 >= m_jpeg.size() || byte_at(m_jpeg, m_end) != 0xff)
@@ -61,6 +64,11 @@ private:
     {
         return is_restart(code) || code == kStartOfImage || code == kEndOfImage || code == 0x01;
     }
+    void pass_strays()
+    {
+        while (m_end + 1 < m_jpeg.size() && (byte_at(m_jpeg, m_end) != 0xff || byte_at(m_jpeg, m_end + 1) == 0))
+            ++m_end;
+    }
     /// To the first 0xff that neither a stuffed zero nor a restart follows.
     void pass_scan()
     {
@@ -76,6 +84,7 @@ private:
     std::string_view m_jpeg, m_content;
     std::size_t m_end = 0;
     int m_code = 0;
+    bool m_lenient;
 };
 
 bool is_jpeg(std::string_view bytes)
@@ -139,6 +148,29 @@ std::optional<std::string_view> find_app_segment(std::string_view jpeg, int n, s
         if (walk.code() == kApp0 + n && starts_with(walk.content(), signature))
             return walk.content().substr(signature.size());
     return {};
+}
+
+std::optional<JpegFrame> find_jpeg_frame(std::string_view jpeg)
+{
+    constexpr bool kLenient = true;
+    MarkerWalk walk(jpeg, kLenient);
+    if (!walk.next() || walk.code() != kStartOfImage)
+        return {};
+    std::optional<JpegFrame> frame;
+    while (walk.next() && walk.code() != kEndOfImage) {
+        const int code = walk.code();
+        // SOF0 … SOF15 are all of this row but for DHT, JPG and DAC.
+        const bool starts_frame = code >= 0xc0 && code <= 0xcf && code != 0xc4 && code != 0xc8 && code != 0xcc;
+        if (starts_frame && !frame && walk.content().size() >= 5) {
+            const auto side = [&](std::size_t at) {
+                return byte_at(walk.content(), at) << 8 | byte_at(walk.content(), at + 1);
+            };
+            frame = JpegFrame{ side(3), side(1), code > 0xc8, 0 };
+        }
+        if (code == kStartOfScan && frame)
+            ++frame->scans;
+    }
+    return frame;
 }
 
 std::optional<std::string_view> find_xmp_packet(std::string_view jpeg)

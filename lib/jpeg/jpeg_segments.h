@@ -12,6 +12,15 @@ namespace srisp {
 /// searched; whatever is damaged ends the search.
 std::optional<std::string_view> find_app_segment(std::string_view jpeg, int n, std::string_view signature);
 
+/// What a JPEG says of its frame, and how many scans follow.
+struct JpegFrame {
+    int width = 0, height = 0;
+    bool arithmetic = false; ///< coded so, not by Huffman's codes
+    std::size_t scans = 0;
+};
+/// None: no frame is found. As decoders do, passes over bytes between segments that belong to none.
+std::optional<JpegFrame> find_jpeg_frame(std::string_view jpeg);
+
 /// The packet of XMP that a JPEG holds; what overflows into extended XMP is not in it.
 std::optional<std::string_view> find_xmp_packet(std::string_view jpeg);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <srisp/model.h>
 
+#include "base/guarded.h"
 #include "base/hashes.h"
 #include "base/input_file.h"
 #include "model/model_data.h"
@@ -16,7 +17,7 @@ Model::~Model() = default;
 
 Expected<std::shared_ptr<const Model>> Model::load(const std::string& name_or_path)
 {
-    try {
+    return guarded("model", name_or_path, [&]() -> Expected<std::shared_ptr<const Model>> {
         Expected<std::string> path = find_model_file(name_or_path);
         if (!path)
             return path.error();
@@ -31,9 +32,7 @@ Expected<std::shared_ptr<const Model>> Model::load(const std::string& name_or_pa
         (*model)->path = *path;
         (*model)->hash = hash_of_bytes(bytes->data(), bytes->size());
         return std::shared_ptr<const Model>(new Model(std::move(*model)));
-    } catch (const std::exception& error) { // out of memory, above all
-        return Error{ "model '" + name_or_path + "': " + error.what() };
-    }
+    });
 }
 
 std::vector<std::string> Model::available()

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <srisp/model.h>
 
+#include "base/guarded.h"
 #include "base/json_object.h"
 #include "base/matrix3.h"
 
@@ -161,7 +162,7 @@ std::string to_json(const Parameters& parameters, int indent)
 
 Expected<Parameters> parameters_from_json(const std::string& text, const std::string& where)
 {
-    try {
+    return guarded("parameters", {}, [&]() -> Expected<Parameters> {
         const std::string what = "parameters in " + where;
         const json object = json::parse(text, nullptr, false);
         if (object.is_discarded())
@@ -193,21 +194,21 @@ Expected<Parameters> parameters_from_json(const std::string& text, const std::st
         if (Status status = check_values(parameters, what); !status)
             return status.error();
         return parameters;
-    } catch (const std::exception& error) {
-        return Error{ "parameters in " + where + ": " + error.what() };
-    }
+    });
 }
 
 Status check_parameters(const Parameters& parameters, const Model& model)
 {
-    if (parameters.model_hash != model.hash())
-        return Error{ "parameters were chosen with model '" + parameters.model_name + "' (" + parameters.model_hash +
-                      "), but '" + model.path() + "' is " + model.hash() };
-    for (const std::vector<float>& weights : parameters.tone_weights)
-        if (static_cast<int>(weights.size()) != model.dictionary_size())
-            return Error{ "parameters have " + std::to_string(weights.size()) + " tone weights per layer, model '" +
-                          model.name() + "' needs " + std::to_string(model.dictionary_size()) };
-    return check_values(parameters, "parameters");
+    return guarded("parameters", {}, [&]() -> Status {
+        if (parameters.model_hash != model.hash())
+            return Error{ "parameters were chosen with model '" + parameters.model_name + "' (" +
+                          parameters.model_hash + "), but '" + model.path() + "' is " + model.hash() };
+        for (const std::vector<float>& weights : parameters.tone_weights)
+            if (static_cast<int>(weights.size()) != model.dictionary_size())
+                return Error{ "parameters have " + std::to_string(weights.size()) + " tone weights per layer, model '" +
+                              model.name() + "' needs " + std::to_string(model.dictionary_size()) };
+        return check_values(parameters, "parameters");
+    });
 }
 
 } // namespace srisp

@@ -6,7 +6,9 @@
 #include <srisp/photo.h>
 #include <srisp/thumbnail.h>
 
+#include "base/guarded.h"
 #include "base/parallel.h"
+#include "container/image_limits.h"
 #include "photo/headroom.h"
 
 namespace srisp {
@@ -14,7 +16,6 @@ namespace srisp {
 namespace {
 
 constexpr int kBandPixels = 1 << 18; // 3 MB of RGB
-constexpr int kLargestSide = 1 << 17;
 
 } // namespace
 
@@ -32,8 +33,7 @@ PhotoReader::PhotoReader(PixelSource& source, int subimage, int miplevel, const 
       m_height(spec.height), m_channels(spec.nchannels), m_orientation(spec.get_int_attribute("Orientation", 1)),
       m_threads(threads)
 {
-    const int tile = std::max(spec.tile_height, 1);
-    m_band_rows = (std::max(kBandPixels / std::max(m_width, 1), 1) + tile - 1) / tile * tile;
+    m_band_rows = rows_in_tiles(std::max(kBandPixels / std::max(m_width, 1), 1), spec);
 }
 
 Expected<PhotoReader::StoredRows> PhotoReader::stored_rows(int y0, int y1)
@@ -111,14 +111,13 @@ Expected<PhotoFile> PhotoFile::open(const std::string& path, const Options& opti
     if (!source)
         return source.error();
     const std::string& where = (*source)->name();
-    OIIO::ImageSpec spec = (*source)->find_level(0, 0).value_or(OIIO::ImageSpec());
-    if (spec.width < 1 || spec.height < 1 || std::max(spec.width, spec.height) > kLargestSide)
-        return Error{ where + ": has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
-                      " pixels; from 1 to " + std::to_string(kLargestSide) + " a side are possible" };
-    auto converter = PhotoConverter::create(spec, options.input, where);
+    auto spec = (*source)->find_level(0, 0);
+    if (!spec)
+        return Error{ where + ": has no picture" };
+    auto converter = PhotoConverter::create(*spec, options.input, where);
     if (!converter)
         return converter.error();
-    return PhotoFile(std::move(*source), std::move(spec), std::move(*converter));
+    return PhotoFile(std::move(*source), std::move(*spec), std::move(*converter));
 }
 
 std::vector<std::string> PhotoFile::notes(const PhotoCounts& counts) const
@@ -131,12 +130,10 @@ std::vector<std::string> PhotoFile::notes(const PhotoCounts& counts) const
 
 Expected<Thumbnail> load_photo_thumbnail(const std::string& path)
 {
-    try {
+    return guarded("photo", path, [&] {
         auto photo = PhotoFile::open(path);
         return photo ? photo->reader().thumbnail() : Expected<Thumbnail>(photo.error());
-    } catch (const std::exception& failed) {
-        return Error{ "photo '" + path + "': " + failed.what() };
-    }
+    });
 }
 
 } // namespace srisp

@@ -9,6 +9,7 @@
 
 #include "base/recently_kept.h"
 #include "container/image_file.h"
+#include "container/image_limits.h"
 
 namespace srisp {
 
@@ -31,10 +32,11 @@ bool read_tile_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, int su
                     float* rows)
 {
     const int tile = spec.tile_height;
-    const int first = y0 / tile * tile, last = std::min((y1 + tile - 1) / tile * tile, spec.height);
-    const std::size_t row = std::size_t(spec.width) * spec.nchannels;
-    std::vector<float> tiles(row * (last - first));
-    if (!input.read_tiles(subimage, miplevel, spec.x, spec.x + spec.width, spec.y + first, spec.y + last, spec.z,
+    const int first = y0 / tile * tile;
+    const int end = std::min(first + rows_in_tiles(y1 - first, spec), spec.height);
+    const std::size_t row = std::size_t(spec.width) * std::size_t(spec.nchannels);
+    std::vector<float> tiles(row * std::size_t(end - first));
+    if (!input.read_tiles(subimage, miplevel, spec.x, spec.x + spec.width, spec.y + first, spec.y + end, spec.z,
                           spec.z + 1, 0, spec.nchannels, OIIO::TypeFloat, tiles.data()))
         return false;
     std::copy_n(tiles.data() + row * (y0 - first), row * (y1 - y0), rows);

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/guarded.h"
 #include "base/input_file.h"
 #include "base/near_names.h"
 #include "recipe/option_table.h"
@@ -179,12 +180,14 @@ Status set_by_text(Recipe& recipe, const std::string& key, const std::string& va
 
 Status set_option(Options& options, const std::string& key, const std::string& value)
 {
-    Recipe recipe;
-    static_cast<Options&>(recipe) = options;
-    const Status set = set_text(recipe, kProgram, key, value);
-    if (set)
-        options = recipe;
-    return set;
+    return guarded("option", key, [&]() -> Status {
+        Recipe recipe;
+        static_cast<Options&>(recipe) = options;
+        Status set = set_text(recipe, kProgram, key, value);
+        if (set)
+            options = std::move(static_cast<Options&>(recipe));
+        return set;
+    });
 }
 
 Status check_complete(const Recipe& recipe, const std::string& where)

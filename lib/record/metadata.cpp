@@ -8,6 +8,7 @@
 
 #include <OpenImageIO/strutil.h>
 
+#include "base/guarded.h"
 #include "base/matrix3.h"
 #include "record/record.h"
 
@@ -135,11 +136,13 @@ void record_result(OIIO::ImageSpec& spec, const Parameters& parameters, const Ca
 
 Expected<Parameters> recorded_parameters(const OIIO::ImageSpec& spec, const std::string& where)
 {
-    const auto record = read_record(spec);
-    if (!record || record->parameters.empty())
-        return Error{ where +
-                      ": holds no recorded parameters (srisp did not make it, or its ImageDescription is gone)" };
-    return parameters_from_json(record->parameters, where + ": recorded parameters");
+    return guarded("recorded parameters", {}, [&]() -> Expected<Parameters> {
+        const auto record = read_record(spec);
+        if (!record || record->parameters.empty())
+            return Error{ where +
+                          ": holds no recorded parameters (srisp did not make it, or its ImageDescription is gone)" };
+        return parameters_from_json(record->parameters, where + ": recorded parameters");
+    });
 }
 
 bool is_unprocessed(const OIIO::ImageSpec& spec)

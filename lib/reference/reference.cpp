@@ -9,6 +9,7 @@
 #include <srisp/thumbnail.h>
 
 #include "base/file_bytes.h"
+#include "base/guarded.h"
 #include "base/hashes.h"
 #include "container/file_type.h"
 #include "recipe/reference_pattern.h"
@@ -132,7 +133,7 @@ FileType type_of(const std::string& head, const std::string& path)
 Expected<std::shared_ptr<const Reference>> load_reference(const std::string& path, bool isolate)
 {
     const auto fail = [&](const std::string& reason) { return Error{ "reference '" + path + "': " + reason }; };
-    try {
+    return guarded("reference", path, [&]() -> Expected<std::shared_ptr<const Reference>> {
         const auto head = read_head(path, kHeadBytes);
         if (!head)
             return fail(head.error().message);
@@ -144,29 +145,27 @@ Expected<std::shared_ptr<const Reference>> load_reference(const std::string& pat
         reference->path = path;
         reference->name = std::filesystem::path(path).filename().string();
         return std::make_shared<const Reference>(std::move(*reference));
-    } catch (const std::exception& failed) {
-        return fail(failed.what());
-    }
+    });
 }
 
 Expected<std::string> choose_reference(const std::vector<std::string>& patterns, std::uint64_t seed,
                                        const std::string& photo_name)
 {
-    try {
+    return guarded("choosing a reference", {}, [&]() -> Expected<std::string> {
         const auto files = expand_references(patterns);
         if (!files)
             return files.error();
         const std::string name = std::filesystem::path(photo_name).filename().string();
         return (*files)[std::size_t(seeded_hash(seed, name) % files->size())];
-    } catch (const std::exception& failed) {
-        return Error{ std::string("choosing a reference: ") + failed.what() };
-    }
+    });
 }
 
 Expected<std::string> choose_reference(const std::string& pattern, std::uint64_t seed, const std::string& photo_name)
 {
-    const auto items = split_references(pattern);
-    return items ? choose_reference(*items, seed, photo_name) : items.error();
+    return guarded("choosing a reference", {}, [&]() -> Expected<std::string> {
+        const auto items = split_references(pattern);
+        return items ? choose_reference(*items, seed, photo_name) : items.error();
+    });
 }
 
 } // namespace srisp

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <srisp/reference.h>
 
+#include "base/guarded.h"
 #include "base/recently_kept.h"
 #include "recipe/reference_pattern.h"
 
@@ -26,11 +27,8 @@ Expected<std::shared_ptr<const Reference>> load_reference_cached(const std::stri
     constexpr std::size_t kMostKept = 64; // 0.8 MB each
     // Never destroyed: other threads of the host may still read while statics end.
     static auto& kept = *new RecentlyKept<std::shared_ptr<const Reference>>(kMostKept);
-    try {
-        return kept.get(reference_state(path), [&] { return load_reference(path, isolate); });
-    } catch (const std::exception& failed) {
-        return Error{ "reference '" + path + "': " + failed.what() };
-    }
+    return guarded("reference", path,
+                   [&] { return kept.get(reference_state(path), [&] { return load_reference(path, isolate); }); });
 }
 
 } // namespace srisp

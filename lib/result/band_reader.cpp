@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "container/image_limits.h"
 #include "photo/headroom.h"
 
 namespace srisp {
@@ -19,8 +20,7 @@ constexpr std::size_t kBandsKept = 2;
 int band_rows(const OIIO::ImageSpec& spec)
 {
     const int rows = std::clamp(kBandPixels / std::max(spec.width, 1), kLeastBandRows, kBandRows);
-    const int tile = std::max(spec.tile_height, 1);
-    return (rows + tile - 1) / tile * tile;
+    return rows_in_tiles(rows, spec);
 }
 
 } // namespace
@@ -31,7 +31,7 @@ BandReader::BandReader(PixelSource& source, int subimage, int miplevel, const OI
       m_channels(settings.converter->output_spec().nchannels), m_band_rows(band_rows(stored)),
       m_settings(std::move(settings)),
       m_reader(source, subimage, miplevel, stored, *m_settings.converter, m_settings.threads),
-      m_done((stored.height + m_band_rows - 1) / m_band_rows), m_progress(m_settings.progress)
+      m_done(std::size_t((stored.height - 1) / m_band_rows + 1)), m_progress(m_settings.progress)
 {
 }
 

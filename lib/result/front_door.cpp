@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "base/guarded.h"
 #include "base/named_output.h"
 #include "base/png_orientation.h"
 #include "photo/pixel_source.h"
@@ -67,24 +68,12 @@ Expected<Image> result_of(const Recipe& recipe, Expected<std::unique_ptr<PixelSo
     return Image(spec, std::move(pixels));
 }
 
-/// What libraries throw becomes an error.
-template<class Step> auto guarded(const std::string& where, const Step& step) -> decltype(step())
-{
-    try {
-        return step();
-    } catch (const std::exception& thrown) {
-        return Error{ where + ": " + thrown.what() };
-    } catch (...) {
-        return Error{ where + ": unknown exception" };
-    }
-}
-
 } // namespace
 
 Status Image::save(const std::string& path) const
 {
-    const std::string where = "image '" + path + "' cannot be written";
-    return guarded(where, [&]() -> Status {
+    return guarded("image", path, [&]() -> Status {
+        const std::string where = "image '" + path + "' cannot be written";
         auto output = OIIO::ImageOutput::create(path);
         if (!output)
             return Error{ where + ": " + OIIO::geterror() };
@@ -101,7 +90,7 @@ Status Image::save(const std::string& path) const
 
 Expected<Image> unprocess(const std::string& photo_path, const std::string& reference_path, const Options& options)
 {
-    return guarded("photo '" + photo_path + "'", [&] {
+    return guarded("photo", photo_path, [&] {
         Recipe recipe;
         static_cast<Options&>(recipe) = options;
         recipe.source = photo_path;
@@ -113,7 +102,7 @@ Expected<Image> unprocess(const std::string& photo_path, const std::string& refe
 
 Expected<Image> process(const std::string& raw_path, const Options& options)
 {
-    return guarded("image '" + raw_path + "'", [&] {
+    return guarded("image", raw_path, [&] {
         Recipe recipe;
         static_cast<Options&>(recipe) = options;
         recipe.source = raw_path;

@@ -5,6 +5,7 @@
 
 #include <srisp/model.h>
 
+#include "base/guarded.h"
 #include "model/model_data.h"
 #include "select/selection.h"
 
@@ -28,20 +29,18 @@ static Status check_thumbnail(const Thumbnail& thumbnail, const char* which)
 Expected<Parameters> select(const Model& model, const Thumbnail& source, const Thumbnail& reference,
                             std::vector<std::string>* notes)
 {
-    if (Status status = check_thumbnail(source, "source"); !status)
-        return status.error();
-    if (Status status = check_thumbnail(reference, "reference"); !status)
-        return status.error();
-    try {
+    return guarded("selecting parameters", {}, [&]() -> Expected<Parameters> {
+        if (Status status = check_thumbnail(source, "source"); !status)
+            return status.error();
+        if (Status status = check_thumbnail(reference, "reference"); !status)
+            return status.error();
         Parameters parameters = select_parameters(model_data(model), source, reference, notes, nullptr);
         parameters.model_name = model.name();
         parameters.model_hash = model.hash();
         if (Status status = check_parameters(parameters, model); !status)
             return Error{ "selecting " + status.error().message };
         return parameters;
-    } catch (const std::exception& error) {
-        return Error{ std::string("selecting parameters: ") + error.what() };
-    }
+    });
 }
 
 } // namespace srisp

@@ -11,6 +11,7 @@
 #include <srisp/reference.h>
 #include <srisp/select.h>
 
+#include "base/guarded.h"
 #include "base/hashes.h"
 #include "base/recently_kept.h"
 
@@ -108,7 +109,7 @@ Expected<Group> kept_or_made(const OCIO::Context& context, Direction direction)
 Expected<Group> transform_from_context(const OCIO::ConstConfigRcPtr& config, const OCIO::ConstContextRcPtr& context,
                                        Direction direction)
 {
-    try {
+    return guarded("transform from context", {}, [&]() -> Expected<Group> {
         if (!config)
             return Error{ "transform from context: no config is given" };
         const OCIO::ConstContextRcPtr used = context ? context : config->getCurrentContext();
@@ -116,9 +117,7 @@ Expected<Group> transform_from_context(const OCIO::ConstConfigRcPtr& config, con
         if (reference.empty())
             return Error{ "context variable SRISP_REFERENCE is not set; it is the path of the reference's RAW file" };
         return reference == kNeutral ? neutral_transform(direction) : kept_or_made(*used, direction);
-    } catch (const std::exception& error) {
-        return Error{ std::string("transform from context: ") + error.what() };
-    }
+    });
 }
 
 } // namespace srisp

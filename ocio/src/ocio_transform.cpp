@@ -6,6 +6,7 @@
 #include <srisp/apply.h>
 #include <srisp/model.h>
 
+#include "base/guarded.h"
 #include "base/matrix3.h"
 #include "model/model_data.h"
 #include "operators.h"
@@ -87,27 +88,23 @@ Expected<Operators> pipeline_operators(const Model& model, const Parameters& par
 Expected<OCIO::GroupTransformRcPtr> make_ocio_transform(const Model& model, const Parameters& parameters,
                                                         Direction direction, int lut_size)
 {
-    try {
+    return guarded("OpenColorIO transform", {}, [&]() -> Expected<OCIO::GroupTransformRcPtr> {
         const auto operators = pipeline_operators(model, parameters, direction, lut_size);
         if (!operators)
             return operators.error();
         return ocio_group(*operators);
-    } catch (const std::exception& error) {
-        return Error{ std::string("OpenColorIO transform: ") + error.what() };
-    }
+    });
 }
 
 Expected<std::string> make_clf(const Model& model, const Parameters& parameters, Direction direction,
                                const ClfLabel& label, int lut_size)
 {
-    try {
+    return guarded("CLF", {}, [&]() -> Expected<std::string> {
         const auto operators = pipeline_operators(model, parameters, direction, lut_size);
         if (!operators)
             return operators.error();
         return clf_text(*operators, label);
-    } catch (const std::exception& error) {
-        return Error{ std::string("CLF: ") + error.what() };
-    }
+    });
 }
 
 } // namespace srisp

@@ -1,35 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 #include <doctest/doctest.h>
 #include <srisp/apply.h>
 #include <srisp/model.h>
 
+#include "allocations.h"
 #include "random_model.h"
 
-// Sanitizers bring an operator new of their own.
-#ifndef __SANITIZE_ADDRESS__
-
-static std::atomic<long> allocations{ 0 };
-
-void* operator new(std::size_t size)
-{
-    ++allocations;
-    if (void* memory = std::malloc(size))
-        return memory;
-    throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept
-{
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept
-{
-    std::free(memory);
-}
+#if SRISP_COUNTS_ALLOCATIONS
 
 using namespace srisp;
 
@@ -54,9 +33,9 @@ TEST_CASE("more tiles need no more allocations")
             const MutableImageView target{ out.data(), width, height, 3, std::ptrdiff_t(3) * width };
             ApplyOptions options;
             options.threads = 1;
-            const long before = allocations;
+            const long before = allocations::count;
             REQUIRE((*applier)->run(source, target, options));
-            return allocations - before;
+            return allocations::count - before;
         };
         const long few = allocations_of(40, 40);
         CHECK(few > 0);

@@ -12,6 +12,7 @@
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
+#include "base/guarded.h"
 #include "base/input_files.h"
 #include "base/parallel.h"
 #include "base/progress.h"
@@ -53,7 +54,7 @@ Expected<PackedScene> run_task(const PackTask& task)
     try {
         return task.run();
     } catch (const std::exception& error) {
-        return Error{ "'" + task.name + "': " + error.what() };
+        return Error{ "'" + task.name + "': " + thrown_text(error) };
     }
 }
 

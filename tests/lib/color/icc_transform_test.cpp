@@ -103,7 +103,8 @@ TEST_CASE("a profile that is sRGB itself is skipped")
 
 TEST_CASE("damaged and unfitting profiles are named")
 {
-    CHECK(refusal(std::vector<unsigned char>(200, 7), 3) == "its ICC profile of 200 bytes is damaged");
+    CHECK(refusal(std::vector<unsigned char>(200, 7), 3) ==
+          "its ICC profile of 200 bytes is damaged: it does not say that it is one");
     CHECK(refusal(grey_gamma(2.2), 3) == "its ICC profile is for GRAY, the image has RGB channels");
     CHECK(refusal(adobe_rgb(), 1) == "its ICC profile is for RGB, the image has grey channels");
     auto truncated = adobe_rgb();

@@ -168,8 +168,10 @@ TEST_CASE("the notes of the file and of its colour are the photo's, and input=sr
     embed(spec, std::vector<unsigned char>(200, 7));
     add_note(spec, "is an animation; its first frame was taken");
     const auto converter = converter_of(spec);
-    CHECK(converter.notes() == std::vector<std::string>{ "is an animation; its first frame was taken",
-                                                         "its ICC profile of 200 bytes is damaged; it was ignored" });
+    CHECK(converter.notes() ==
+          std::vector<std::string>{
+              "is an animation; its first frame was taken",
+              "its ICC profile of 200 bytes is damaged: it does not say that it is one; it was ignored" });
     CHECK(note_list(converter.output_spec()).empty());
     CHECK(rgb_of(converter, { 0.5f, 0, 1 }) == std::vector<float>{ 0.5f, 0, 1 });
     auto adobe = photo_spec({ "R", "G", "B" });
