@@ -4,19 +4,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
 
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 #include <srisp/metadata.h>
 #include <srisp/thumbnail.h>
 
+#include "container/image_limits.h"
 #include "record/record.h"
 
 namespace srisp {
 
 namespace {
 
-constexpr int kLargestSide = 1 << 17;
 constexpr std::uint64_t kMostBandBytes = std::uint64_t(1) << 30;
 
 /// Whether this image can be a reference.
@@ -43,10 +45,8 @@ Status check_kind(const OIIO::ImageSpec& spec, bool tiff)
         return Error{ "deep image: not supported" };
     if (!tiff && !spec.format.is_floating_point())
         return Error{ std::string("EXR of ") + spec.format.c_str() + " values: half or float are needed" };
-    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || std::max(spec.width, spec.height) > kLargestSide)
-        return Error{ "image of " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " x " +
-                      std::to_string(spec.depth) + " pixels: from 1 to " + std::to_string(kLargestSide) +
-                      " a side are possible" };
+    if (spec.depth > 1)
+        return Error{ "volume of " + std::to_string(spec.depth) + " planes: not supported" };
     return {};
 }
 
@@ -158,6 +158,14 @@ Expected<LinearReference> read_linear_reference(const std::string& path, const s
     OIIO::ImageSpec spec;
     if (!input->open(path, spec))
         return Error{ "can't be opened as " + format + ": " + input->geterror() };
+    if (Status status = check_size(spec); !status)
+        return status.error();
+    std::error_code unknown;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, unknown);
+    if (Status status =
+            check_claim(format.c_str(), std::uint64_t(spec.width), std::uint64_t(spec.height), unknown ? 0 : bytes);
+        !status)
+        return status.error();
     if (Status status = check_kind(spec, format == "tiff"); !status)
         return status.error();
     const std::vector<int> channels = rgb_channels(spec);
