@@ -191,6 +191,7 @@ TEST_CASE("an output in no folder, and one that is a folder, are refused")
     fs::create_directory(scratch.path("folder"));
     const Status folder = write_output_file(scratch.path("folder"), "x");
     REQUIRE_FALSE(folder);
-    CHECK(folder.error().message == "'" + scratch.path("folder") + "' cannot be renamed from its temporary name: Is a directory");
+    CHECK(folder.error().message ==
+          "'" + scratch.path("folder") + "' cannot be renamed from its temporary name: Is a directory");
     CHECK(count(scratch.path()) == 1);
 }
