@@ -157,8 +157,8 @@ CONFIG
     mkdir out.ocio # an output that cannot be taken
     says 1 "out.ocio" "$bake" --fragment config.ocio -o out.ocio || return 1
     [ "$(ls | tr '\n' ' ')" = "config.ocio out.ocio " ] || { ls; return 1; }
-    "$bake" --fragment config.ocio -o /dev/stdout -q >copy.ocio || return 1
-    grep -q "srisp unprocess" copy.ocio && [ "$(ls luts/deep | wc -l)" -eq 2 ] && [ ! -e /dev/luts ]
+    "$bake" --fragment config.ocio -o /dev/fd/1 -q >copy.ocio || return 1
+    grep -q "srisp unprocess" copy.ocio && [ "$(ls luts/deep | wc -l)" -eq 2 ] && [ ! -e /dev/fd/luts ]
 }
 fragment_case() { (fragments); }
 check "a fragment that fails leaves no file and no folder" fragment_case

@@ -131,6 +131,30 @@ truncated_pack() {
     says 1 "pack 'cut': " "$train" tiny.json --pack cut -o cut_out && [ ! -e cut_out ]
 }
 check "a truncated pack" truncated_pack
+shrinking_pack() {
+    cp -r pack shrinking
+    start "$train" tiny.json --pack shrinking -o shrunk --threads 1 --set steps=100000 2>shrunk.err
+    pid=$!
+    wait_for_step shrunk/log.csv 2 || return 1
+    truncate -s 5000 shrinking/photos.safetensors shrinking/raws.safetensors
+    wait $pid
+    code=$?
+    tail -n 3 shrunk.err
+    [ $code -eq 1 ] && grep -q "^srisptrain: pack 'shrinking': [a-z]*.safetensors was made shorter while it was read" shrunk.err
+}
+check "a pack that is truncated while it is read" shrinking_pack
+# keeps FILE WORDS…: the training is refused, FILE stays.
+keeps() {
+    before=$(cksum <"$1")
+    says 1 "inputs are never overwritten" "$train" "$2" -o whole --threads 1 $3 && [ "$(cksum <"$1")" = "$before" ]
+}
+check "a model to start from in the output's folder" keeps whole/best.safetensors tiny.json "--init whole/best.safetensors"
+ln whole/best.safetensors linked.safetensors
+check "the same, by a hard link" keeps whole/best.safetensors tiny.json "--init linked.safetensors"
+check "a model whose anchor is taken" keeps whole/best.safetensors tiny.json "--set anchor_fit.from=whole/best.safetensors"
+check "a recipe in the output's folder that would change" keeps whole/recipe.json whole/recipe.json "--steps 9"
+same_recipe() { "$train" whole/recipe.json --threads 1; }
+check "a finished training by its own recipe, which stays the same" same_recipe
 check "a model of another kernel size as --init" says 1 \
     "--init pointwise is another kind of model than the recipe's: 'model.kernel_size' is \"1\" there, \"3\" here" \
     "$train" tiny.json --init pointwise -o init

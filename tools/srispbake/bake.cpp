@@ -159,6 +159,7 @@ void write_files(std::vector<Baked>& files)
             break;
         check_interrupt();
     }
+    check_interrupt(); // one ends the waiting for a pipe's reader
     // What failed says why; finishing it removes it, and the others go unfinished.
     if (!outputs.back()->good())
         fail("output " + outputs.back()->finish().error().message);
