@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <exception>
 
+#include "base/shown_text.h"
 #include "process_state.h"
 
 namespace srisp::plugin {
@@ -73,7 +74,7 @@ bool SrispInput::close()
 
 bool SrispInput::fail(const std::string& message) const
 {
-    errorfmt("{}", message);
+    errorfmt("{}", valid_utf8(message));
     return false;
 }
 

@@ -10,6 +10,7 @@
 #include <srisp/metadata.h>
 
 #include "base/output_file.h"
+#include "base/shown_text.h"
 #include "hand_over.h"
 #include "open_name.h"
 #include "recipe/frame_pattern.h"
@@ -65,7 +66,7 @@ int SrispOutput::supports(OIIO::string_view feature) const
 
 bool SrispOutput::fail(const std::string& message)
 {
-    errorfmt("{}", message);
+    errorfmt("{}", valid_utf8(message));
     return false;
 }
 

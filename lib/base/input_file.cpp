@@ -2,34 +2,35 @@
 #include "base/input_file.h"
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <memory>
 #include <utility>
 
-#include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
+
+#include "base/regular_file.h"
 
 namespace srisp {
 
+/// Whether RegularFile says what the thing is, rather than what the system said.
+static bool is_kind(const Error& error)
+{
+    return error.message.rfind("is ", 0) == 0;
+}
+
 Expected<std::string> read_file(const std::string& path, std::uint64_t max_bytes, const std::string& where)
 {
-    struct stat info;
-    if (::stat(path.c_str(), &info) != 0)
-        return Error{ where + ": cannot open '" + path + "': " + std::strerror(errno) };
-    if (S_ISDIR(info.st_mode))
-        return Error{ where + ": '" + path + "' is a folder, not a file" };
-    std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+    const auto file = RegularFile::open(path);
     if (!file)
-        return Error{ where + ": cannot open '" + path + "': " + std::strerror(errno) };
-    if (static_cast<std::uint64_t>(info.st_size) > max_bytes)
-        return Error{ where + ": file has " + std::to_string(info.st_size) + " bytes, limit " +
+        return Error{ where + ": " + (is_kind(file.error()) ? "'" + path + "' " : "cannot open '" + path + "': ") +
+                      file.error().message };
+    if (file->size() > max_bytes)
+        return Error{ where + ": file has " + std::to_string(file->size()) + " bytes, limit " +
                       std::to_string(max_bytes) };
-    std::string bytes(static_cast<std::size_t>(info.st_size), '\0');
-    const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), file.get());
-    if (count != bytes.size())
+    std::string bytes(file->size(), '\0');
+    const long long count = file->read(bytes.data(), 0, bytes.size());
+    if (count < 0)
+        return Error{ where + ": cannot be read: " + std::strerror(errno) };
+    if (std::size_t(count) != bytes.size())
         return Error{ where + ": read " + std::to_string(count) + " of " + std::to_string(bytes.size()) + " bytes" };
     return bytes;
 }
@@ -37,13 +38,14 @@ Expected<std::string> read_file(const std::string& path, std::uint64_t max_bytes
 Expected<std::string> read_text_file(const std::string& path, std::size_t most)
 {
     const auto failed = [&](const std::string& reason) { return Error{ "'" + path + "': " + reason }; };
-    const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+    const auto file = RegularFile::open(path);
     if (!file)
-        return failed(std::strerror(errno));
+        return failed(file.error().message);
     std::string text(most + 1, '\0');
-    text.resize(std::fread(text.data(), 1, text.size(), file.get()));
-    if (std::ferror(file.get()))
+    const long long count = file->read(text.data(), 0, text.size());
+    if (count < 0)
         return failed(std::strerror(errno));
+    text.resize(std::size_t(count));
     if (text.size() > most)
         return failed("has more than " + std::to_string(most) + " bytes");
     return text;
@@ -52,30 +54,17 @@ Expected<std::string> read_text_file(const std::string& path, std::size_t most)
 Expected<MappedFile> MappedFile::open(const std::string& path)
 {
     const auto failure = [&](const std::string& reason) { return Error{ "'" + path + "' " + reason }; };
-    const auto failed_call = [&](const char* doing) {
-        return failure(std::string("cannot be ") + doing + ": " + std::strerror(errno));
-    };
-    // O_NONBLOCK: a FIFO must not hang us; it is refused below.
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0)
-        return failed_call("opened");
-    const struct Closing {
-        int descriptor;
-        ~Closing() { ::close(descriptor); }
-    } closing{ descriptor };
-    struct stat info;
-    if (::fstat(descriptor, &info) != 0)
-        return failed_call("read");
-    if (!S_ISREG(info.st_mode))
-        return failure("is not a regular file");
-    if (info.st_size == 0)
+    const auto opened = RegularFile::open(path);
+    if (!opened)
+        return failure((is_kind(opened.error()) ? "" : "cannot be opened: ") + opened.error().message);
+    if (opened->size() == 0)
         return failure("is empty");
-    void* const data = ::mmap(nullptr, std::size_t(info.st_size), PROT_READ, MAP_SHARED, descriptor, 0);
+    void* const data = ::mmap(nullptr, opened->size(), PROT_READ, MAP_SHARED, opened->descriptor(), 0);
     if (data == MAP_FAILED)
-        return failed_call("mapped");
+        return failure(std::string("cannot be mapped: ") + std::strerror(errno));
     MappedFile file;
     file.m_data = static_cast<const char*>(data);
-    file.m_size = std::size_t(info.st_size);
+    file.m_size = opened->size();
     return file;
 }
 

@@ -7,6 +7,8 @@
 #include <filesystem>
 
 #include "base/file_bytes.h"
+#include "base/regular_file.h"
+#include "base/shown_text.h"
 #include "color/color_encoding.h"
 #include "container/file_description.h"
 #include "container/reader_name.h"
@@ -59,27 +61,35 @@ Expected<std::unique_ptr<OIIO::ImageInput>> open_by(const std::string& reader, c
     return Error{ reason.empty() ? "is damaged, its reader does not say how" : reason };
 }
 
+/// A reader of films takes "pipe:0.mp4" or "http:/host/a.mp4" for something else than a file.
+std::string name_for_reader(const std::string& path)
+{
+    return path.find(':') < path.find('/') ? "./" + path : path;
+}
+
 /// Of a file, or of a name that only a reader understands.
 Expected<std::unique_ptr<OIIO::ImageInput>> open_input(const std::string& path, const OIIO::ImageSpec& hints)
 {
     std::error_code ignored;
+    if (is_url(path))
+        return Error{ kIsUrl };
     if (!std::filesystem::exists(path, ignored)) {
         if (path.find('?') == std::string::npos)
             return Error{ "does not exist" };
-        auto input = OIIO::ImageInput::open(path, &hints);
+        auto input = OIIO::ImageInput::open(name_for_reader(path), &hints);
         if (!input)
             return Error{ OIIO::geterror() };
         return input;
     }
     if (!std::filesystem::is_regular_file(path, ignored))
-        return Error{ std::filesystem::is_directory(path, ignored) ? "is a folder" : "is not a regular file" };
+        return Error{ std::filesystem::is_directory(path, ignored) ? "is a folder" : kIsNoRegularFile };
     const auto head = read_head(path, kReaderHeadBytes);
     if (!head)
         return head.error();
     const std::string reader = reader_name(*head, path);
     if (reader.empty())
         return Error{ "is not an image that OpenImageIO reads" };
-    return open_by(reader, path, hints);
+    return open_by(reader, name_for_reader(path), hints);
 }
 
 /// Of integers that nothing names, or whose name nobody knows: what an image was is forgotten once a program has made
@@ -91,7 +101,7 @@ void name_color_space(OIIO::ImageSpec& spec)
     if (spec.format.is_floating_point() || known)
         return;
     if (!name.empty() && name != "Rec709")
-        add_note(spec, "the colour space '" + name + "' is not known; taken as display-encoded sRGB");
+        add_note(spec, "the colour space '" + shown_text(name) + "' is not known; taken as display-encoded sRGB");
     spec.attribute("oiio:ColorSpace", "sRGB");
 }
 

@@ -14,7 +14,6 @@ namespace srisp {
 
 namespace {
 
-constexpr std::uint64_t kMaxIndexBytes = std::uint64_t(1) << 30; // some four million images
 constexpr std::uint64_t kMaxCamerasBytes = std::uint64_t(1) << 28;
 
 /// Maps a file of the pack, and checks that it is the one that the index means.

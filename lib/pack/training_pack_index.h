@@ -16,6 +16,7 @@ namespace srisp {
 /// What pack.json holds: all of a pack but the numbers.
 constexpr char kPackFormat[] = "srisp-pack-1";
 constexpr char kPackIndexName[] = "pack.json";
+constexpr std::uint64_t kMaxIndexBytes = std::uint64_t(1) << 30; // some four million images
 
 /// One file of the pack.
 struct PackFile {

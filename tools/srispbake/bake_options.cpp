@@ -5,9 +5,10 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 #include "../common/failure.h"
+#include "base/file_bytes.h"
+#include "base/shown_text.h"
 #include "ocio/src/operators.h"
 
 namespace srisp::tool {
@@ -167,16 +168,14 @@ std::string reference_line(const std::string& reference)
 
 void refuse_bake_of_another(const std::string& path, const std::string& reference)
 {
-    std::ifstream file(path, std::ios::binary);
-    std::string head(16384, '\0');
-    file.read(head.data(), std::streamsize(head.size()));
-    head.resize(std::size_t(file.gcount()));
-    const std::size_t start = head.find(kReferenceLine);
+    constexpr std::size_t kHeadOfBake = 16384;
+    const auto head = read_head(path, kHeadOfBake);
+    const std::size_t start = head ? head->find(kReferenceLine) : std::string::npos;
     if (start == std::string::npos)
         return;
-    const std::string line = head.substr(start, head.find_first_of("<\n", start) - start);
+    const std::string line = head->substr(start, head->find_first_of("<\n", start) - start);
     if (line != reference_line(reference) && line != clf_escaped(reference_line(reference)))
-        fail("'" + path + "' is the bake of another reference (" + line.substr(sizeof kReferenceLine - 1) +
+        fail("'" + path + "' is the bake of another reference (" + shown_text(line.substr(sizeof kReferenceLine - 1)) +
              "); remove it, or give -o NAME");
 }
 

@@ -29,6 +29,8 @@ std::string read_text(const std::string& path, const std::string& what)
     auto text = read_head(path, kLargestConfig);
     if (!text)
         fail(what + " '" + path + "': " + text.error().message);
+    if (text->size() == kLargestConfig)
+        fail(what + " '" + path + "': has too many bytes, the limit is " + std::to_string(kLargestConfig - 1));
     return *text;
 }
 

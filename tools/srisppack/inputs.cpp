@@ -9,6 +9,7 @@
 #include "../common/failure.h"
 #include "base/file_bytes.h"
 #include "base/hashes.h"
+#include "base/regular_file.h"
 #include "camera_folder.h"
 #include "container/file_type.h"
 #include "container/reader_name.h"
@@ -64,7 +65,7 @@ public:
     {
         std::error_code error;
         if (!fs::exists(input, error))
-            fail("input '" + input + "' does not exist");
+            fail("input '" + input + "' " + (is_url(input) ? kIsUrl : "does not exist"));
         if (!fs::is_directory(input, error)) {
             const fs::path path = input;
             const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/near_names.h"
+#include "base/regular_file.h"
 #include "model/model_files.h"
 #include "recipe/frame_pattern.h"
 #include "recipe/option_table.h"
@@ -36,7 +37,9 @@ std::string existing_file(const std::string& command, const std::string& what, c
     if (fs::is_directory(path, error))
         fail(command + ": " + what + " '" + path + "' is a folder, not a file");
     if (!exists(path))
-        fail(command + ": " + what + " '" + path + "' does not exist");
+        fail(command + ": " + what + " '" + path + "' " + (is_url(path) ? kIsUrl : "does not exist"));
+    if (!fs::is_regular_file(path, error))
+        fail(command + ": " + what + " '" + path + "' " + kIsNoRegularFile);
     return absolute(path);
 }
 
@@ -70,7 +73,7 @@ nlohmann::json existing_references(const std::string& command, const std::string
     for (const std::string& item : *typed) {
         if (!exists(item))
             if (const auto files = expand_references({ item }); !files || !exists(files->front()))
-                fail(command + ": reference '" + item + "' does not exist");
+                fail(command + ": reference '" + item + "' " + (is_url(item) ? kIsUrl : "does not exist"));
         paths.push_back(fs::path(resolved_reference(item, fs::current_path())).lexically_normal().string());
     }
     return paths.size() == 1 && exists(paths[0]) ? nlohmann::json(paths[0]) : nlohmann::json(paths);

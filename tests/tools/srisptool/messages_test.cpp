@@ -105,3 +105,13 @@ TEST_CASE("lines are shown as soon as they are whole, the rest at the end")
     CHECK(messages.finish() == "y\n");
     CHECK(messages.finish() == "");
 }
+
+TEST_CASE("a reason of any length is shown")
+{
+    const std::string endless(1000000, 'x');
+    CHECK(shown("oiiotool ERROR: read : \"/T/1.srisp\": photo '/home/a.jpg': " + endless + "\n") ==
+          "srisptool: ERROR: photo 'a.jpg': " + endless + "\n");
+    CHECK(shown("oiiotool ERROR: read : \"/T/1.srisp\": " + endless + " '" + endless + "\n") ==
+          "srisptool: ERROR: " + endless + " '" + endless + "\n");
+    CHECK(shown("/T/" + std::string(100000, '1') + "." + endless + "\n").size() > endless.size());
+}
