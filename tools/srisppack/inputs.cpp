@@ -64,8 +64,10 @@ public:
     void add(const std::string& input, Role role)
     {
         std::error_code error;
+        if (is_url(input))
+            fail("input '" + input + "' " + kIsUrl);
         if (!fs::exists(input, error))
-            fail("input '" + input + "' " + (is_url(input) ? kIsUrl : "does not exist"));
+            fail("input '" + input + "' does not exist");
         if (!fs::is_directory(input, error)) {
             const fs::path path = input;
             const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";

@@ -33,13 +33,16 @@ bool exists(const std::string& path)
 
 std::string existing_file(const std::string& command, const std::string& what, const std::string& path)
 {
+    const std::string named = command + ": " + what + " '" + path + "' ";
     std::error_code error;
+    if (is_url(path))
+        fail(named + kIsUrl);
     if (fs::is_directory(path, error))
-        fail(command + ": " + what + " '" + path + "' is a folder, not a file");
+        fail(named + kIsFolder);
     if (!exists(path))
-        fail(command + ": " + what + " '" + path + "' " + (is_url(path) ? kIsUrl : "does not exist"));
+        fail(named + "does not exist");
     if (!fs::is_regular_file(path, error))
-        fail(command + ": " + what + " '" + path + "' " + kIsNoRegularFile);
+        fail(named + kIsNoRegularFile);
     return absolute(path);
 }
 
@@ -71,9 +74,11 @@ nlohmann::json existing_references(const std::string& command, const std::string
         fail_usage(command + ": the list of references '" + text + "' is empty");
     std::vector<std::string> paths;
     for (const std::string& item : *typed) {
+        if (is_url(item))
+            fail(command + ": reference '" + item + "' " + kIsUrl);
         if (!exists(item))
             if (const auto files = expand_references({ item }); !files || !exists(files->front()))
-                fail(command + ": reference '" + item + "' " + (is_url(item) ? kIsUrl : "does not exist"));
+                fail(command + ": reference '" + item + "' does not exist");
         paths.push_back(fs::path(resolved_reference(item, fs::current_path())).lexically_normal().string());
     }
     return paths.size() == 1 && exists(paths[0]) ? nlohmann::json(paths[0]) : nlohmann::json(paths);
