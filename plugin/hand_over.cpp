@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include <nlohmann/json.hpp>
-
+#include "base/json_text.h"
 #include "process_state.h"
 
 namespace srisp::plugin {
@@ -77,10 +76,10 @@ std::string stub_text(const std::string& id)
 
 std::optional<std::string> parse_stub(const std::string& text)
 {
-    const auto stub = nlohmann::json::parse(text, nullptr, false);
-    if (!stub.is_object() || stub.value("format", nlohmann::json()) != kStubFormat)
+    const auto stub = parse_json<nlohmann::json>(text);
+    if (!stub || !stub->is_object() || stub->value("format", nlohmann::json()) != kStubFormat)
         return {};
-    const nlohmann::json slot = stub.value("slot", nlohmann::json());
+    const nlohmann::json slot = stub->value("slot", nlohmann::json());
     return slot.is_string() ? slot.get<std::string>() : "";
 }
 

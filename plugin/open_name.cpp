@@ -6,6 +6,8 @@
 #include <OpenImageIO/strutil.h>
 
 #include "base/input_file.h"
+#include "base/json_text.h"
+#include "base/shown_text.h"
 #include "hand_over.h"
 #include "photo/pixel_source.h"
 #include "process_state.h"
@@ -37,19 +39,18 @@ Expected<std::string> percent_decoded(const std::string& text)
         const int high = i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
         const int low = i + 2 < text.size() ? hex_digit(text[i + 2]) : -1;
         if (high < 0 || low < 0)
-            return Error{ "'" + text.substr(i, 3) + "' in the query is not a percent code (write %25 for %)" };
+            return Error{ "'" + shown_text(first_characters(std::string_view(text).substr(i), 3)) +
+                          "' in the query is not a percent code (write %25 for %)" };
         decoded += static_cast<char>(high * 16 + low);
         i += 2;
     }
     return decoded;
 }
 
-constexpr std::size_t kMostRecipe = 1 << 20; // bytes
-
 bool exists(const std::string& path)
 {
     std::error_code ignored;
-    return std::filesystem::is_regular_file(path, ignored);
+    return std::filesystem::exists(path, ignored);
 }
 
 /// The settings of a query and of hints, on top of what a file on disk says.
@@ -145,7 +146,7 @@ Status apply_query(Recipe& recipe, const std::string& query)
         start = end + 1;
         const std::size_t equals = item.find('=');
         if (equals == std::string::npos)
-            return Error{ "'" + item + "' in the query is not key=value" };
+            return Error{ "'" + shown_text(item) + "' in the query is not key=value" };
         const auto key = percent_decoded(item.substr(0, equals));
         const auto value = percent_decoded(item.substr(equals + 1));
         if (!key || !value)
@@ -171,7 +172,7 @@ Status apply_hints(Recipe& recipe, const OIIO::ImageSpec& config)
 Expected<Recipe> read_job(const std::string& stub_path)
 {
     const auto [path, frame] = parse_stub_name(stub_path);
-    auto text = read_text_file(path, kMostRecipe);
+    auto text = read_text_file(path, kLargestJson);
     if (!text)
         return Error{ "job " + text.error().message };
     auto job = recipe_from_json(*text, path, true);
@@ -187,8 +188,8 @@ bool is_our_name(const std::string& name)
         return false;
     if (!exists(parts->file))
         return true;
-    const auto text = read_text_file(parts->file, kMostRecipe);
-    return text && text->find("\"srisp-") != std::string::npos;
+    const auto text = read_text_file(parts->file, kLargestJson);
+    return !text || text->find("\"srisp-") != std::string::npos; // why it cannot be read, we say
 }
 
 Expected<OpenedName> open_name(const std::string& name, const OIIO::ImageSpec& config)
@@ -204,7 +205,7 @@ Expected<OpenedName> open_name(const std::string& name, const OIIO::ImageSpec& c
     if (!exists(parts->file)) {
         of_frame = recipe_of_frame(*parts);
     } else {
-        const auto text = read_text_file(parts->file, kMostRecipe);
+        const auto text = read_text_file(parts->file, kLargestJson);
         if (!text)
             return Error{ "recipe " + text.error().message };
         const auto slot_id = parse_stub(*text);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/guarded.h"
+#include "base/shown_text.h"
 #include "process_state.h"
 
 namespace srisp::plugin {
@@ -67,7 +68,7 @@ bool SrispInput::close()
 
 bool SrispInput::fail(const std::string& message) const
 {
-    errorfmt("{}", message);
+    errorfmt("{}", valid_utf8(message));
     return false;
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/guarded.h"
 #include "base/output_file.h"
+#include "base/shown_text.h"
 #include "container/image_limits.h"
 #include "hand_over.h"
 #include "open_name.h"
@@ -66,7 +67,7 @@ int SrispOutput::supports(OIIO::string_view feature) const
 
 bool SrispOutput::fail(const std::string& message)
 {
-    errorfmt("{}", message);
+    errorfmt("{}", valid_utf8(message));
     return false;
 }
 

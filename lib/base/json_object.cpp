@@ -3,51 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "base/near_names.h"
+#include "base/shown_text.h"
 
 namespace srisp {
 
 using nlohmann::json;
-
-/// "line 3, column 7" of a byte, counted from 1.
-static std::string place(const std::string& text, std::size_t byte)
-{
-    const std::string before = text.substr(0, std::min(byte, text.size()));
-    const std::size_t line_start = before.rfind('\n') + 1; // npos + 1 is 0
-    return "line " + std::to_string(std::count(before.begin(), before.end(), '\n') + 1) + ", column " +
-           std::to_string(std::max<std::size_t>(1, byte - line_start));
-}
-
-Expected<json> parse_json_object(const std::string& text, const std::string& where, const std::string& part)
-{
-    std::vector<std::set<std::string>> open_objects;
-    std::string duplicate;
-    const auto watch = [&](int, json::parse_event_t event, json& parsed) {
-        if (event == json::parse_event_t::object_start)
-            open_objects.emplace_back();
-        else if (event == json::parse_event_t::object_end)
-            open_objects.pop_back();
-        else if (event == json::parse_event_t::key && !open_objects.back().insert(parsed.get<std::string>()).second)
-            duplicate = parsed.get<std::string>();
-        return true;
-    };
-    const std::string message = where + ": " + part + " is not a JSON object";
-    json object;
-    try {
-        object = json::parse(text, watch);
-    } catch (const json::parse_error& error) {
-        return Error{ message + " (" + place(text, error.byte) + ")" };
-    } catch (const json::out_of_range&) { // the one other thing that parse throws
-        return Error{ message + " that can be read (a number is too large)" };
-    }
-    if (!object.is_object())
-        return Error{ message };
-    if (!duplicate.empty())
-        return Error{ where + ": '" + duplicate + "' appears twice in the " + part };
-    return object;
-}
 
 JsonObjectReader::JsonObjectReader(const json& object, std::string where) : m_object(object), m_where(std::move(where))
 {
@@ -101,17 +63,17 @@ void JsonObjectReader::fail(const std::string& reason)
 
 Status JsonObjectReader::finish()
 {
-    if (m_error.empty())
-        for (const auto& [key, value] : m_object.items())
-            if (std::find(m_known.begin(), m_known.end(), key) == m_known.end())
-                fail("has an unknown key '" + key + "'" + near_names(key, m_known));
+    // Ends at the first error: there may be any number of unknown keys.
+    for (auto entry = m_object.begin(); m_error.empty() && entry != m_object.end(); ++entry)
+        if (std::find(m_known.begin(), m_known.end(), entry.key()) == m_known.end())
+            fail("has an unknown key '" + shown_text(entry.key()) + "'" + near_names(entry.key(), m_known));
     return m_error.empty() ? Status() : Status(Error{ m_error });
 }
 
 float JsonObjectReader::as_number(const json& value, const std::string& key)
 {
     if (m_error.empty() && (!value.is_number() || !std::isfinite(static_cast<float>(value.get<double>()))))
-        fail("'" + key + "' must hold finite numbers, has " + value.dump());
+        fail("'" + key + "' must hold finite numbers, has " + shown_json(value));
     return m_error.empty() ? static_cast<float>(value.get<double>()) : 0;
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/shown_text.h"
+
 namespace srisp {
 
 /// Letters inserted, left out, replaced or swapped with their neighbour (Damerau, each place edited once).
@@ -22,13 +24,24 @@ static std::size_t edit_distance(const std::string& a, const std::string& b)
     return d[a.size()][b.size()];
 }
 
+/// A third of the letters may be wrong: catches slips without offering names that only have the same length.
+static std::size_t most_edits(const std::string& a, const std::string& b)
+{
+    return std::max<std::size_t>(1, std::max(a.size(), b.size()) / 3);
+}
+
 std::string near_names(const std::string& name, const std::vector<std::string>& known)
 {
+    // Names of ours are far below; those of strangers, such as columns of a table, may be of any length and number.
+    constexpr std::size_t kLongestName = 100, kMostCompared = 1000, kMostListed = 64;
+    const std::size_t compared = std::min(known.size(), kMostCompared);
     std::vector<std::pair<std::size_t, std::string>> near;
-    for (const std::string& candidate : known) {
-        // A third of the letters may be wrong: catches slips without offering names that only have the same length.
+    for (std::size_t i = 0; i < compared && name.size() <= kLongestName; ++i) {
+        const std::string& candidate = known[i];
+        if (candidate.size() > kLongestName)
+            continue;
         const std::size_t distance = edit_distance(name, candidate);
-        if (distance <= std::max<std::size_t>(1, std::max(name.size(), candidate.size()) / 3))
+        if (distance <= most_edits(name, candidate))
             near.emplace_back(distance, candidate);
     }
     std::sort(near.begin(), near.end());
@@ -36,12 +49,13 @@ std::string near_names(const std::string& name, const std::vector<std::string>& 
     std::string text;
     if (!near.empty()) {
         for (const auto& [distance, candidate] : near)
-            text += (text.empty() ? "; did you mean '" : " or '") + candidate + "'";
+            text += (text.empty() ? "; did you mean '" : " or '") + shown_text(candidate) + "'";
         return text + "?";
     }
-    for (const std::string& candidate : known)
-        text += (text.empty() ? "; known: " : ", ") + candidate;
-    return text;
+    const std::size_t listed = std::min(known.size(), kMostListed);
+    for (std::size_t i = 0; i < listed; ++i)
+        text += (text.empty() ? "; known: " : ", ") + shown_text(known[i]);
+    return listed < known.size() ? text + ", and " + std::to_string(known.size() - listed) + " more" : text;
 }
 
 } // namespace srisp

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/shown_text.h"
 #include "color/color_encoding.h"
 #include "color/icc_transform.h"
 
@@ -97,7 +98,7 @@ ColorReading read_as_described(const OIIO::ImageSpec& spec, int channels)
             encoding.chromaticities = *chromaticities;
     take_gamma_22_as_srgb(encoding);
     if (!named && !space.empty())
-        notes.push_back("the colour space '" + space + "' is not known; taken as " +
+        notes.push_back("the colour space '" + shown_text(space) + "' is not known; taken as " +
                         (encoding.transfer == Transfer::linear ? "linear sRGB" : "display-encoded sRGB"));
     // EXIF says "uncalibrated" for Adobe RGB, and OpenImageIO does not show the interoperability index that tells.
     if (encoding.transfer != Transfer::linear && spec.get_int_attribute("Exif:ColorSpace", 1) == 65535 && !icc)

@@ -8,6 +8,8 @@
 
 #include "base/file_bytes.h"
 #include "base/recently_kept.h"
+#include "base/regular_file.h"
+#include "base/shown_text.h"
 #include "color/color_encoding.h"
 #include "container/file_description.h"
 #include "container/image_limits.h"
@@ -91,21 +93,29 @@ Status check_raw(const std::string& path, bool isolate)
     return file ? check_libraw_traps(*file) : Status(file.error());
 }
 
+/// A reader of films takes "pipe:0.mp4" or "http:/host/a.mp4" for something else than a file.
+std::string name_for_reader(const std::string& path)
+{
+    return path.find(':') < path.find('/') ? "./" + path : path;
+}
+
 /// Of a file, or of a name that only a reader understands.
 Expected<std::unique_ptr<OIIO::ImageInput>> open_input(const std::string& path, const OIIO::ImageSpec& hints,
                                                        bool isolate)
 {
     std::error_code ignored;
+    if (is_url(path))
+        return Error{ kIsUrl };
     if (!std::filesystem::exists(path, ignored)) {
         if (path.find('?') == std::string::npos)
             return Error{ "does not exist" };
-        auto input = OIIO::ImageInput::open(path, &hints);
+        auto input = OIIO::ImageInput::open(name_for_reader(path), &hints);
         if (!input)
             return Error{ OIIO::geterror() };
         return input;
     }
     if (!std::filesystem::is_regular_file(path, ignored))
-        return Error{ std::filesystem::is_directory(path, ignored) ? "is a folder" : "is not a regular file" };
+        return Error{ std::filesystem::is_directory(path, ignored) ? "is a folder" : kIsNoRegularFile };
     const auto head = read_head(path, kReaderHeadBytes);
     if (!head)
         return head.error();
@@ -117,7 +127,7 @@ Expected<std::unique_ptr<OIIO::ImageInput>> open_input(const std::string& path, 
             return status.error();
     if (const Status header = check_header(reader, path); !header)
         return header.error();
-    return open_by(reader, path, hints);
+    return open_by(reader, name_for_reader(path), hints);
 }
 
 /// Of integers that nothing names, or whose name nobody knows: what an image was is forgotten once a program has made
@@ -129,7 +139,7 @@ void name_color_space(OIIO::ImageSpec& spec)
     if (spec.format.is_floating_point() || known)
         return;
     if (!name.empty() && name != "Rec709")
-        add_note(spec, "the colour space '" + name + "' is not known; taken as display-encoded sRGB");
+        add_note(spec, "the colour space '" + shown_text(name) + "' is not known; taken as display-encoded sRGB");
     spec.attribute("oiio:ColorSpace", "sRGB");
 }
 

@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "base/shown_text.h"
+
 namespace srisp {
 
 namespace {
@@ -72,7 +74,7 @@ Status read_numbers(const XmpPacket& xmp, const char* name, bool may_lack, std::
         const std::string& text = texts[texts.size() == 1 ? 0 : c];
         const auto number = parsed_number(text);
         if (!number)
-            return damaged(std::string("has ") + name + " = '" + text + "', which is no number");
+            return damaged(std::string("has ") + name + " = '" + shown_text(text) + "', which is no number");
         numbers[c] = *number;
     }
     return {};
@@ -119,8 +121,9 @@ Expected<GainMapMetadata> gain_map_metadata_from_xmp(const XmpPacket& xmp)
 {
     const std::vector<std::string> version = xmp.values(kGainMapVersion);
     if (version.size() != 1 || version[0].compare(0, 2, "1.") != 0)
-        return damaged(version.empty() ? "lacks Version"
-                                       : "is of version '" + version[0] + "'; 1.0 is what this program knows");
+        return damaged(version.empty()
+                           ? "lacks Version"
+                           : "is of version '" + shown_text(version[0]) + "'; 1.0 is what this program knows");
     GainMapMetadata metadata;
     metadata.offset_sdr.fill(1.0 / 64);
     metadata.offset_hdr.fill(1.0 / 64);
@@ -135,7 +138,7 @@ Expected<GainMapMetadata> gain_map_metadata_from_xmp(const XmpPacket& xmp)
     const std::vector<std::string> base = xmp.values({ kSpace, "BaseRenditionIsHDR" });
     metadata.base_is_hdr = !base.empty() && base[0] == "True";
     if (!base.empty() && !metadata.base_is_hdr && base[0] != "False")
-        return damaged("has BaseRenditionIsHDR = '" + base[0] + "'; True or False is possible");
+        return damaged("has BaseRenditionIsHDR = '" + shown_text(base[0]) + "'; True or False is possible");
     if (const Status checked = check(metadata); !checked)
         return checked.error();
     return metadata;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/near_names.h"
+#include "base/shown_text.h"
 #include "features/image_features.h"
 #include "features/match_features.h"
 #include "model/safetensors.h"
@@ -70,7 +71,7 @@ public:
     {
         if (m_error.empty() && !m_file.tensors.empty()) {
             const std::string& name = m_file.tensors.begin()->first;
-            fail("unknown tensor '" + name + "'" + near_names(name, m_taken));
+            fail("unknown tensor '" + shown_text(name) + "'" + near_names(name, m_taken));
         }
         return m_error.empty() ? Status() : Status(Error{ m_error });
     }
@@ -105,7 +106,7 @@ public:
             std::string list;
             for (const std::string& name : allowed)
                 list += (list.empty() ? "'" : " or '") + name + "'";
-            fail("metadata '" + key + "' is '" + value + "', must be " + list);
+            fail("metadata '" + key + "' is '" + shown_text(value) + "', must be " + list);
         }
         return value;
     }
@@ -117,7 +118,7 @@ public:
                             std::all_of(value.begin(), value.end(), [](char c) { return c >= '0' && c <= '9'; });
         const int number = digits ? std::stoi(value) : 0;
         if (m_error.empty() && (number < 1 || number > limit))
-            fail("metadata '" + key + "' is '" + value + "', must be 1 … " + std::to_string(limit));
+            fail("metadata '" + key + "' is '" + shown_text(value) + "', must be 1 … " + std::to_string(limit));
         return number;
     }
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/model_files.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <sstream>
 
-#include "base/near_names.h"
 #include "base/installed_files.h"
+#include "base/near_names.h"
+#include "base/shown_text.h"
 
 namespace srisp {
 
@@ -60,16 +62,35 @@ Expected<std::string> find_model_file(const std::string& name_or_path)
         return Error{ "model name is empty" };
     if (name_or_path.find('/') != std::string::npos || has_extension(name_or_path))
         return name_or_path;
-    std::string searched;
+    const std::vector<std::string> files = model_files_named(name_or_path);
+    if (!files.empty())
+        return files.front();
+    return Error{ "unknown model '" + shown_text(name_or_path) + "'" + near_names(name_or_path, model_names()) + " (" +
+                  model_folder_list() + ")" };
+}
+
+std::vector<std::string> model_files_named(const std::string& name)
+{
+    const auto is_control = [](unsigned char c) { return c < 0x20; };
+    std::vector<std::string> files;
+    if (name.empty() || name.find('/') != std::string::npos || has_extension(name) ||
+        std::any_of(name.begin(), name.end(), is_control))
+        return files;
     for (const fs::path& folder : model_folders()) {
-        const fs::path path = folder / (name_or_path + kExtension);
+        const fs::path path = folder / (name + kExtension);
         std::error_code error;
         if (fs::exists(path, error))
-            return path.string();
-        searched += (searched.empty() ? " (looked in " : ", ") + folder.string();
+            files.push_back(path.string());
     }
-    return Error{ "unknown model '" + name_or_path + "'" + near_names(name_or_path, model_names()) +
-                  (searched.empty() ? " (no model folder found; set SRISP_MODEL_PATH)" : searched + ")") };
+    return files;
+}
+
+std::string model_folder_list()
+{
+    std::string list;
+    for (const fs::path& folder : model_folders())
+        list += (list.empty() ? "looked in " : ", ") + folder.string();
+    return list.empty() ? "no model folder found; set SRISP_MODEL_PATH" : list;
 }
 
 } // namespace srisp

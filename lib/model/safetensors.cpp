@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cstring>
 
-#include <nlohmann/json.hpp>
-
 #include "base/file_part.h"
 #include "base/half_float.h"
 #include "base/json_object.h"
 #include "base/output_file.h"
+#include "base/shown_text.h"
 
 namespace srisp {
 
@@ -17,7 +16,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uint64_t kMaxHeaderBytes = 100'000'000; // the format's own limit
+// Far above what a model, a checkpoint or a pack holds, and little enough to be read at once.
+constexpr std::uint64_t kMaxHeaderBytes = std::uint64_t(16) << 20;
+constexpr std::size_t kMaxTensors = 1 << 16;
 constexpr std::uint64_t kMaxRank = 8;
 
 /// "F32, F16 or BF16"
@@ -32,7 +33,7 @@ std::string alternatives(const std::vector<std::string>& names)
 Expected<TensorEntry> parse_entry(const std::string& name, const json& value, const std::vector<std::string>& types,
                                   const std::string& where)
 {
-    const std::string tensor = where + ": tensor '" + name + "'";
+    const std::string tensor = where + ": tensor '" + shown_text(name) + "'";
     if (!value.is_object() || !value.contains("dtype") || !value.contains("shape") || !value.contains("data_offsets"))
         return Error{ tensor + " needs dtype, shape and data_offsets" };
     const json &type = value["dtype"], &shape = value["shape"], &offsets = value["data_offsets"];
@@ -44,14 +45,14 @@ Expected<TensorEntry> parse_entry(const std::string& name, const json& value, co
         return Error{ tensor + " has " + std::to_string(shape.size()) + " dimensions, limit 8" };
     TensorEntry entry{ name, type.get<std::string>(), shape.get<std::vector<std::int64_t>>(), offsets[0], offsets[1] };
     if (std::find(types.begin(), types.end(), entry.type) == types.end())
-        return Error{ tensor + " has type " + entry.type + ", not " + alternatives(types) };
+        return Error{ tensor + " has type " + shown_text(entry.type) + ", not " + alternatives(types) };
     return entry;
 }
 
 /// Whether the entry's bytes lie in the file and are as many as shape and type say.
 Status check_extent(const TensorEntry& entry, std::uint64_t data_bytes, const std::string& where)
 {
-    const std::string tensor = where + ": tensor '" + entry.name + "'";
+    const std::string tensor = where + ": tensor '" + shown_text(entry.name) + "'";
     if (entry.begin > entry.end)
         return Error{ tensor + " begins at byte " + std::to_string(entry.begin) + " after its end " +
                       std::to_string(entry.end) };
@@ -78,7 +79,8 @@ Status check_layout(std::vector<TensorEntry>& entries, std::uint64_t data_bytes,
     std::uint64_t expected = 0;
     for (const TensorEntry& entry : entries) {
         if (entry.begin != expected)
-            return Error{ where + ": tensor '" + entry.name + "' begins at byte " + std::to_string(entry.begin) +
+            return Error{ where + ": tensor '" + shown_text(entry.name) + "' begins at byte " +
+                          std::to_string(entry.begin) +
                           (entry.begin < expected ? ", overlaps the one before, which ends at "
                                                   : ", leaves a gap after the one before, which ends at ") +
                           std::to_string(expected) };
@@ -96,7 +98,7 @@ Status read_metadata(const json& value, SafeTensorsHeader& header, const std::st
         return Error{ where + ": __metadata__ is not an object" };
     for (const auto& [key, text] : value.items()) {
         if (!text.is_string())
-            return Error{ where + ": metadata '" + key + "' is not a string" };
+            return Error{ where + ": metadata '" + shown_text(key) + "' is not a string" };
         header.metadata[key] = text.get<std::string>();
     }
     return {};
@@ -128,9 +130,12 @@ static Expected<std::uint64_t> header_length(const char* bytes, std::uint64_t si
                       " bytes, at least 8 needed" };
     std::uint64_t length;
     std::memcpy(&length, bytes, 8);
-    if (length > kMaxHeaderBytes || length > size - 8)
+    if (length > size - 8)
         return Error{ where + ": header of " + std::to_string(length) + " bytes, file has " + std::to_string(size - 8) +
                       " after the length (truncated, or not a safetensors file)" };
+    if (length > kMaxHeaderBytes)
+        return Error{ where + ": header of " + std::to_string(length) + " bytes, limit " +
+                      std::to_string(kMaxHeaderBytes) };
     return length;
 }
 
@@ -156,9 +161,12 @@ Expected<SafeTensorsHeader> parse_safetensors_header(const char* bytes, std::uin
     if (!length)
         return length.error();
     const std::uint64_t header_bytes = *length;
-    Expected<json> parsed = parse_json_object({ bytes + 8, bytes + 8 + header_bytes }, where, "header");
+    Expected<json> parsed = parse_json_object({ bytes + 8, header_bytes }, where, "header", kMaxHeaderBytes);
     if (!parsed)
         return parsed.error();
+    if (parsed->size() > kMaxTensors)
+        return Error{ where + ": has " + std::to_string(parsed->size()) + " tensors, limit " +
+                      std::to_string(kMaxTensors) };
 
     SafeTensorsHeader header;
     header.data_begin = 8 + header_bytes;

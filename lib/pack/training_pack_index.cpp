@@ -5,6 +5,7 @@
 
 #include "base/json_object.h"
 #include "base/near_names.h"
+#include "base/shown_text.h"
 
 namespace srisp {
 
@@ -67,7 +68,7 @@ public:
         const json& value = take(key);
         if (value.is_number_unsigned() && value.get<std::uint64_t>() >= low && value.get<std::uint64_t>() <= high)
             return value.get<std::uint64_t>();
-        fail("'" + key + "' is " + value.dump() + ", must be a whole number from " + std::to_string(low) + " to " +
+        fail("'" + key + "' is " + shown_json(value) + ", must be a whole number from " + std::to_string(low) + " to " +
              std::to_string(high));
         return low;
     }
@@ -87,7 +88,7 @@ public:
         file.bytes = take_count("bytes", 1, std::uint64_t(1) << 50);
         file.hash = take_text("hash");
         if (file.name.empty() || file.name[0] == '.' || file.name.find('/') != std::string::npos)
-            fail("'file' is '" + file.name + "', must be the name of a file in the pack");
+            fail("'file' is '" + shown_text(file.name) + "', must be the name of a file in the pack");
         return file;
     }
 
@@ -117,8 +118,9 @@ public:
 std::vector<std::array<float, 4>> take_crops(PackReader& reader, const json& object)
 {
     std::vector<std::array<float, 4>> crops;
-    const json list = object.value("crops", json());
-    for (const std::vector<float>& crop : reader.take_lists("crops", list.is_array() ? list.size() : 1)) {
+    const auto list = object.find("crops");
+    const bool is_list = list != object.end() && list->is_array();
+    for (const std::vector<float>& crop : reader.take_lists("crops", is_list ? list->size() : 1)) {
         if (crop.size() != 4 || !(crop[0] >= 0 && crop[0] < crop[2] && crop[2] <= 1) ||
             !(crop[1] >= 0 && crop[1] < crop[3] && crop[3] <= 1))
             reader.fail("'crops' must be lists of left < right, top < bottom (0 … 1), in the order left, top, right, "
@@ -187,7 +189,7 @@ Expected<PackCamerasIndex> read_cameras(const json& object, const std::string& w
             result.kind = spectrum.take_text("kind");
         const std::vector<std::string>& kinds = pack_light_kinds();
         if (!camera && std::find(kinds.begin(), kinds.end(), result.kind) == kinds.end())
-            spectrum.fail("has kind '" + result.kind + "'" + near_names(result.kind, kinds));
+            spectrum.fail("has kind '" + shown_text(result.kind) + "'" + near_names(result.kind, kinds));
         list.push_back(std::move(result));
         return spectrum.finish();
     };
@@ -235,7 +237,7 @@ std::string format_pack_index(const PackIndex& index)
 
 Expected<PackIndex> parse_pack_index(const std::string& text, const std::string& where)
 {
-    const Expected<json> parsed = parse_json_object(text, where, kPackIndexName);
+    const Expected<json> parsed = parse_json_object(text, where, kPackIndexName, kMaxPackIndexBytes);
     if (!parsed)
         return parsed.error();
     const std::string inside = where + ": " + kPackIndexName;
@@ -243,7 +245,7 @@ Expected<PackIndex> parse_pack_index(const std::string& text, const std::string&
     PackIndex index;
     const std::string format = pack.take_text("format");
     if (format != kPackFormat)
-        pack.fail("format is '" + format + "', this program reads '" + kPackFormat + "'");
+        pack.fail("format is '" + shown_text(format) + "', this program reads '" + kPackFormat + "'");
     index.made_by = pack.take_text("made_by");
     index.settings = pack.take("settings");
     for (const Status& status : { read_part(pack, *parsed, "photos", index.photos, read_images),

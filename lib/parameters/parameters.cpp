@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
 #include <srisp/model.h>
 
 #include "base/guarded.h"
 #include "base/json_object.h"
 #include "base/matrix3.h"
+#include "base/shown_text.h"
 
 namespace srisp {
 
@@ -164,15 +164,16 @@ Expected<Parameters> parameters_from_json(const std::string& text, const std::st
 {
     return guarded("parameters", {}, [&]() -> Expected<Parameters> {
         const std::string what = "parameters in " + where;
-        const json object = json::parse(text, nullptr, false);
-        if (object.is_discarded())
-            return Error{ what + ": not JSON" };
+        const auto parsed = parse_json<json>(text);
+        if (!parsed)
+            return Error{ what + ": " + parsed.error().message };
+        const json& object = *parsed;
         JsonObjectReader reader(object, what);
         Parameters parameters;
         if (object.is_object() && object.contains("image")) // what srisptool prints: whose parameters they are
             reader.take_text("image");
         if (const std::string format = reader.take_text("format"); format != kFormat)
-            reader.fail("have format '" + format + "', must be '" + kFormat + "'");
+            reader.fail("have format '" + shown_text(format) + "', must be '" + kFormat + "'");
         parameters.gain = reader.take_number("gain");
         const std::vector<float> white_balance = reader.take_list("white_balance");
         if (white_balance.size() == 3)
@@ -201,8 +202,8 @@ Status check_parameters(const Parameters& parameters, const Model& model)
 {
     return guarded("parameters", {}, [&]() -> Status {
         if (parameters.model_hash != model.hash())
-            return Error{ "parameters were chosen with model '" + parameters.model_name + "' (" +
-                          parameters.model_hash + "), but '" + model.path() + "' is " + model.hash() };
+            return Error{ "parameters were chosen with model '" + shown_text(parameters.model_name) + "' (" +
+                          shown_text(parameters.model_hash) + "), but '" + model.path() + "' is " + model.hash() };
         for (const std::vector<float>& weights : parameters.tone_weights)
             if (static_cast<int>(weights.size()) != model.dictionary_size())
                 return Error{ "parameters have " + std::to_string(weights.size()) + " tone weights per layer, model '" +

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "base/near_names.h"
+#include "base/shown_text.h"
 
 namespace srisp {
 
@@ -69,7 +70,7 @@ std::vector<std::string> option_keys(Door door)
 
 Expected<nlohmann::json> option_value(const Option& option, const std::string& text)
 {
-    const std::string what = std::string(option.key) + " '" + text + "'";
+    const std::string what = std::string(option.key) + " '" + shown_text(text) + "'";
     if (option.type == OptionType::flag) {
         if (text != "0" && text != "1")
             return Error{ what + " is neither 0 nor 1" };
@@ -93,7 +94,8 @@ Expected<std::size_t> choice_index(const Option& option, const std::string& name
 {
     const auto found = std::find(option.values.begin(), option.values.end(), name);
     if (found == option.values.end())
-        return Error{ std::string("unknown ") + option.key + " '" + name + "'" + near_names(name, option.values) };
+        return Error{ std::string("unknown ") + option.key + " '" + shown_text(name) + "'" +
+                      near_names(name, option.values) };
     return std::size_t(found - option.values.begin());
 }
 

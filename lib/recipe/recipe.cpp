@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recipe/recipe.h"
 
+#include <climits>
 #include <filesystem>
 #include <type_traits>
 
-#include <nlohmann/json.hpp>
-
 #include "base/guarded.h"
 #include "base/input_file.h"
+#include "base/json_text.h"
 #include "base/near_names.h"
+#include "base/regular_file.h"
+#include "base/shown_text.h"
 #include "recipe/option_table.h"
 #include "recipe/reference_pattern.h"
 
@@ -19,7 +21,6 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostParameters = 1 << 20; // bytes; 700 are usual
 const char kFormat[] = "srisp-recipe-1";
 
 /// The file that an option stands in; empty for a text that a user typed.
@@ -33,6 +34,19 @@ std::string resolved(const std::string& path, const Place& place)
     return path.empty() || place.folder().empty() ? path : (fs::path(place.folder()) / path).string();
 }
 
+/// Whether a text can be the path of a file at all; it may be any string of a stranger's.
+Status check_path(const std::string& path)
+{
+    if (is_url(path))
+        return Error{ "'" + shown_text(path) + "' " + kIsUrl };
+    if (path.size() >= PATH_MAX)
+        return Error{ "has a path of " + std::to_string(path.size()) + " bytes, limit " +
+                      std::to_string(PATH_MAX - 1) };
+    if (path.find('\0') != std::string::npos)
+        return Error{ "'" + shown_text(path) + "' is no path: it holds a zero byte" };
+    return {};
+}
+
 Status take(std::string& target, const Option& option, const json& value, const Place& place)
 {
     if (!value.is_string())
@@ -42,9 +56,12 @@ Status take(std::string& target, const Option& option, const json& value, const 
     const bool is_path = option.type == OptionType::path ||
                          (option.type == OptionType::model &&
                           (target.find('/') != std::string::npos || fs::path(target).extension() == ".safetensors"));
-    if (is_path)
+    if (!is_path)
+        return {};
+    const Status possible = check_path(target);
+    if (possible)
         target = resolved(target, place);
-    return {};
+    return possible;
 }
 
 /// A text may be a list; in an array each path stands by itself.
@@ -64,8 +81,11 @@ Status take(std::vector<std::string>& references, const Option&, const json& val
         }
     }
     references.clear();
-    for (const std::string& item : items)
+    for (const std::string& item : items) {
+        if (const Status possible = check_path(item); !possible)
+            return possible;
         references.push_back(resolved_reference(item, place.folder()));
+    }
     return {};
 }
 
@@ -73,8 +93,10 @@ Status take(std::optional<Parameters>& target, const Option&, const json& value,
 {
     std::string text = value.dump(), where = place.file;
     if (value.is_string()) {
+        if (const Status possible = check_path(value.get<std::string>()); !possible)
+            return possible;
         where = resolved(value.get<std::string>(), place);
-        auto read = read_text_file(where, kMostParameters);
+        auto read = read_text_file(where, kLargestJson);
         if (!read)
             return Error{ "parameters " + read.error().message };
         text = std::move(*read);
@@ -125,7 +147,7 @@ Status set_text(Recipe& recipe, Door door, const std::string& key, const std::st
 {
     const Option* const option = find_option(door, key);
     if (!option)
-        return Error{ "unknown option '" + key + "'" + near_names(key, option_keys(door)) };
+        return Error{ "unknown option '" + shown_text(key) + "'" + near_names(key, option_keys(door)) };
     const auto value = option_value(*option, text);
     return value ? set_value(recipe, *option, *value, {}) : value.error();
 }
@@ -137,8 +159,9 @@ Status check_format(const json& object)
     const json& format = object["format"];
     if (!format.is_string())
         return Error{ "'format': must be a string" };
-    return format == kFormat ? Status()
-                             : Error{ "'format': '" + format.get<std::string>() + "' is not " + std::string(kFormat) };
+    return format == kFormat
+               ? Status()
+               : Error{ "'format': '" + shown_text(format.get<std::string>()) + "' is not " + std::string(kFormat) };
 }
 
 } // namespace
@@ -147,9 +170,12 @@ Expected<Recipe> recipe_from_json(const std::string& text, const std::string& pa
 {
     const std::string where = (is_job ? "job '" : "recipe '") + path + "'";
     const Door door = is_job ? kJob : kRecipe;
-    const json object = json::parse(text, nullptr, false);
-    if (!object.is_object())
+    const auto parsed = parse_json<json>(text);
+    if (!parsed && parsed.error().message != kNotJson)
+        return Error{ where + ": " + parsed.error().message };
+    if (!parsed || !parsed->is_object())
         return Error{ where + ": is not a JSON object" };
+    const json& object = *parsed;
     Recipe recipe;
     recipe.path = path;
     for (const auto& [key, value] : object.items()) {
@@ -159,7 +185,7 @@ Expected<Recipe> recipe_from_json(const std::string& text, const std::string& pa
         if (!option) {
             std::vector<std::string> known = option_keys(door);
             known.push_back("format");
-            return Error{ where + ": unknown key '" + key + "'" + near_names(key, known) };
+            return Error{ where + ": unknown key '" + shown_text(key) + "'" + near_names(key, known) };
         }
         if (const Status taken = set_value(recipe, *option, value, { path }); !taken)
             return Error{ where + ": '" + key + "': " + taken.error().message };

@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <climits>
 #include <filesystem>
+#include <string_view>
 
 #include <glob.h>
+
+#include "base/regular_file.h"
+#include "base/shown_text.h"
 
 namespace srisp {
 
@@ -19,6 +23,7 @@ const std::vector<std::string> kRawExtensions = { "3fr", "arw", "cap", "cr2", "c
                                                   "mos", "mrw", "nef", "nrw", "orf", "pef", "qtk", "raf",
                                                   "raw", "rw2", "rwl", "rwz", "sr2", "srf", "srw", "x3f" };
 const char kGlobCharacters[] = "*?[";
+constexpr std::size_t kLongestList = 1 << 18; // bytes
 
 bool exists(const std::string& path)
 {
@@ -75,14 +80,23 @@ Expected<std::vector<std::string>> files_of_item(const std::string& item)
     return files_of_glob(item);
 }
 
-/// The longest beginning of a list, up to a ';' or its end, that exists; else what stands before the first ';'.
-std::string first_item(const std::string& list, const std::string& folder)
+/// The longest beginning of a list, up to a ';' or its end, that exists; else what stands before the first ';'. Each is
+/// looked for on disk, so a name in a longer list may hold only so many ';'.
+std::string first_item(const std::string_view list, const std::string& folder)
 {
-    std::size_t end = list.size() <= PATH_MAX ? list.size() : list.rfind(';', PATH_MAX);
-    for (; end != std::string::npos && end > 0; end = list.rfind(';', end - 1))
-        if (exists(resolved_reference(list.substr(0, end), folder)))
-            return list.substr(0, end);
-    return list.substr(0, list.find(';'));
+    constexpr std::size_t kMostParts = 32;
+    const auto exists_to = [&](std::size_t end) {
+        return end < PATH_MAX && exists(resolved_reference(std::string(list.substr(0, end)), folder));
+    };
+    if (exists_to(list.size()))
+        return std::string(list);
+    std::size_t ends[kMostParts], count = 0;
+    for (std::size_t end = list.find(';'); end < PATH_MAX && count < kMostParts; end = list.find(';', end + 1))
+        ends[count++] = end;
+    while (count > 0)
+        if (const std::size_t end = ends[--count]; end > 0 && exists_to(end))
+            return std::string(list.substr(0, end));
+    return std::string(list.substr(0, list.find(';')));
 }
 
 } // namespace
@@ -103,8 +117,11 @@ std::string resolved_reference(const std::string& item, const std::string& folde
 Expected<std::vector<std::string>> split_references(const std::string& list, const std::string& folder)
 {
     std::vector<std::string> items;
+    if (list.size() > kLongestList)
+        return none(shown_text(list), "this list has " + std::to_string(list.size()) + " bytes, limit " +
+                                          std::to_string(kLongestList) + "; a folder or a pattern is shorter");
     for (std::size_t begin = 0; begin < list.size();) {
-        const std::string item = first_item(list.substr(begin), folder);
+        const std::string item = first_item(std::string_view(list).substr(begin), folder);
         begin += item.size() + 1;
         if (!item.empty())
             items.push_back(item);
@@ -120,6 +137,8 @@ Expected<std::vector<std::string>> expand_references(const std::vector<std::stri
         return none("", "no file, folder or pattern given");
     std::vector<std::string> all;
     for (const std::string& item : items) {
+        if (is_url(item))
+            return none(shown_text(item), kIsUrl);
         const auto files = files_of_item(item);
         if (!files)
             return files;

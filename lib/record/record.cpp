@@ -3,15 +3,17 @@
 
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include "base/json_text.h"
 
 namespace srisp {
 
 namespace {
 
+using nlohmann::json;
 using nlohmann::ordered_json;
 
 const char kStart[] = "{\"srisp\":";
+constexpr std::size_t kLargestLine = std::size_t(64) << 20; // bytes; descriptions of microscopes have some MB
 
 /// An attribute of one value. `kept`: it holds for the result's own pixels, too; levels and filters do not.
 template<class Value> struct Fact {
@@ -38,7 +40,7 @@ OIIO::TypeDesc floats(std::size_t count)
 }
 
 /// The JSON object at `start`, to its closing brace; empty where it does not close.
-std::string object_at(const std::string& text, std::size_t start)
+std::string_view object_at(const std::string_view text, std::size_t start)
 {
     int depth = 0;
     bool quoted = false;
@@ -53,7 +55,7 @@ std::string object_at(const std::string& text, std::size_t start)
         else if (!quoted && c == '}' && --depth == 0)
             return text.substr(start, i + 1 - start);
     }
-    return "";
+    return {};
 }
 
 } // namespace
@@ -69,7 +71,8 @@ std::string format_record(const RecordLine& record)
     ordered_json line = { { "srisp", synthetic_mark(record.direction) },
                           { "direction", record.direction == Direction::reverse ? "reverse" : "forward" } };
     if (!record.parameters.empty())
-        line["parameters"] = ordered_json::parse(record.parameters, nullptr, false);
+        if (auto parameters = parse_json<ordered_json>(record.parameters))
+            line["parameters"] = std::move(*parameters);
     if (!record.description.empty())
         line["description"] = record.description;
     return line.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
@@ -80,9 +83,10 @@ std::optional<RecordLine> find_record(const std::string& text)
     const std::size_t start = text.find(kStart);
     if (start == std::string::npos)
         return {};
-    const ordered_json line = ordered_json::parse(object_at(text, start), nullptr, false);
-    if (!line.is_object())
+    const auto parsed = parse_json<json>(object_at(text, start), kLargestLine);
+    if (!parsed || !parsed->is_object())
         return {};
+    const json& line = *parsed;
     const auto text_of = [&](const char* key) {
         const auto found = line.find(key);
         return found != line.end() && found->is_string() ? found->get<std::string>() : std::string();

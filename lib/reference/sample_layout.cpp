@@ -8,6 +8,7 @@
 #include "base/input_file.h"
 #include "base/json_object.h"
 #include "base/near_names.h"
+#include "base/shown_text.h"
 #include "recipe/reference_pattern.h"
 
 namespace srisp {
@@ -43,7 +44,7 @@ private:
         if (value.is_number_integer() && value >= least && value <= most)
             return value.get<std::int64_t>();
         m_reader.fail("'" + key + "' must be a whole number from " + std::to_string(least) + " to " +
-                      std::to_string(most) + ", has " + value.dump());
+                      std::to_string(most) + ", has " + shown_json(value));
         return least;
     }
     std::int64_t whole(const std::string& key, std::int64_t least, std::int64_t most)
@@ -68,7 +69,7 @@ private:
         const std::string letters = m_reader.take_text("cfa");
         const std::vector<std::string> known = { "RGGB", "GRBG", "GBRG", "BGGR" };
         if (std::find(known.begin(), known.end(), letters) == known.end())
-            m_reader.fail("'cfa' must be RGGB, GRBG, GBRG or BGGR, has '" + letters + "'");
+            m_reader.fail("'cfa' must be RGGB, GRBG, GBRG or BGGR, has '" + shown_text(letters) + "'");
         m_layout.pixels.cfa = { 2, 2, letters };
     }
 
@@ -80,7 +81,7 @@ private:
         std::vector<float> levels =
             value.is_array() ? m_reader.take_list("black") : std::vector<float>{ m_reader.take_number("black") };
         if (levels.size() != 1 && levels.size() != 4) {
-            m_reader.fail("'black' must be one number or four, has " + value.dump());
+            m_reader.fail("'black' must be one number or four, has " + shown_json(value));
             levels = { 0 };
         }
         black.rows = black.columns = levels.size() == 4 ? 2 : 1;
@@ -100,7 +101,8 @@ private:
         if (m_reader.take_optional("packed")) {
             const std::string packed = m_reader.take_text("packed");
             if (std::find(packings.begin(), packings.end(), packed) == packings.end())
-                m_reader.fail("has an unknown value '" + packed + "' of 'packed'" + near_names(packed, packings));
+                m_reader.fail("has an unknown value '" + shown_text(packed) + "' of 'packed'" +
+                              near_names(packed, packings));
             m_layout.packed = packed == "mipi";
         }
         const std::int64_t width = m_layout.pixels.width, bits = m_layout.bits;

@@ -24,15 +24,14 @@ Expected<Chooser> Chooser::create(const Recipe& recipe, const std::string& photo
     Chooser chooser(kept);
     chooser.m_recipe = recipe;
     const std::optional<Parameters>& given = recipe.parameters;
-    std::string model = recipe.model;
-    if (model.empty() && given)
-        model = given->model_name;
-    if (model.empty() && recipe.direction == Direction::reverse)
-        model = "default";
-    if (model.empty() && given)
+    const bool reverse = recipe.direction == Direction::reverse;
+    const bool named = given && !given->model_name.empty();
+    if (given && !named && recipe.model.empty() && !reverse)
         return Error{ "the parameters name no model, so it must be given (model=)" };
-    if (!model.empty()) {
-        auto loaded = kept.load_model(model);
+    if (!recipe.model.empty() || named || reverse) {
+        auto loaded = !recipe.model.empty() ? kept.load_model(recipe.model)
+                      : named               ? kept.find_model_of(*given)
+                                            : kept.load_model("default");
         if (!loaded)
             return loaded.error();
         chooser.m_model = *loaded;
@@ -74,9 +73,9 @@ Expected<ChoicePtr> Chooser::known(const PixelSource& source, int subimage, cons
         m_recipe.parameters ? Expected<Parameters>(*m_recipe.parameters) : recorded_parameters(stored, source.name());
     if (!parameters)
         return parameters.error();
-    auto model = m_model ? Expected<std::shared_ptr<const Model>>(m_model) : m_kept->load_model(parameters->model_name);
+    auto model = m_model ? Expected<std::shared_ptr<const Model>>(m_model) : m_kept->find_model_of(*parameters);
     if (!model)
-        return model.error();
+        return Error{ source.name() + ": " + model.error().message };
     if (const Status fits = check_parameters(*parameters, **model); !fits)
         return Error{ source.name() + ": " + fits.error().message };
     return ChoicePtr(std::make_shared<Choice>(Choice{ *model, *parameters, nullptr, {} }));

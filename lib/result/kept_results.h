@@ -9,6 +9,7 @@
 
 #include <srisp/expected.h>
 #include <srisp/model.h>
+#include <srisp/parameters.h>
 
 #include "base/recently_kept.h"
 
@@ -22,6 +23,11 @@ class KeptResults {
 public:
     /// Model::load, once per file as it is.
     Expected<std::shared_ptr<const Model>> load_model(const std::string& name);
+
+    /// The model that parameters name: the one of that name in the known folders whose hash it is. The name may be a
+    /// stranger's, from an image's metadata or a file of parameters, so it is never a path. The error says which model
+    /// it was, and that model=FILE gives it.
+    Expected<std::shared_ptr<const Model>> find_model_of(const Parameters& parameters);
 
     /// Prints `srisp: note: image: text` on stderr, each once.
     void print_notes(const std::string& image, const std::vector<std::string>& notes);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "open_name.h"
 
+#include <sys/stat.h>
+
 #include <set>
 
 #include "test_images.h"
@@ -128,4 +130,35 @@ TEST_CASE("parameters that name no model are refused where none is given, in bot
     CHECK(has(refusal_of(photo + ".srisp?direction=forward&model=default&params=" + parameters),
               "parameters were chosen with model ''"));
     CHECK(has(refusal_of(photo + ".srisp?params=" + parameters), "parameters were chosen with model ''"));
+}
+
+TEST_CASE("what a message shows of a query is valid UTF-8")
+{
+    Recipe recipe;
+    CHECK(has(apply_query(recipe, "reference=%ü日").error().message, "'%ü日' in the query is not a percent code"));
+    CHECK(has(apply_query(recipe, "reference=%\xff\xfe").error().message, "'%\\xff\\xfe' in the query"));
+    CHECK(refusal_of("gr\xfcn.png.srisp?reference=a.exr") == "photo 'gr\\xfcn.png': does not exist");
+    const ScratchFolder folder;
+    const std::string query = write_photo(folder) + ".srisp?";
+    CHECK(has(refusal_of(query + "reference=a.exr&model=%FF%e6%97"), "unknown model '\\xff\\xe6\\x97'"));
+    CHECK(has(refusal_of(query + "reference=%e6%97.dng"), "reference '\\xe6\\x97.dng': No such file"));
+}
+
+TEST_CASE("a recipe or parameters that are no regular file, and URLs, are refused at once")
+{
+    const ScratchFolder folder;
+    const std::string photo = write_photo(folder), reference = write_reference(folder), fifo = folder.path("f.srisp");
+    REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
+    CHECK(refusal_of(fifo) == "recipe '" + fifo + "': is not a regular file");
+    CHECK(has(refusal_of(photo + ".srisp?params=" + fifo), "is not a regular file"));
+    CHECK(has(refusal_of(photo + ".srisp?params=/dev/zero"), "is not a regular file"));
+    CHECK(has(refusal_of(photo + ".srisp?reference=" + fifo), "is not a regular file"));
+    CHECK(has(refusal_of(photo + ".srisp?reference=" + reference + "&model=./" + fifo), "No such file"));
+    CHECK(has(refusal_of(fifo + ".srisp?reference=" + reference), "a recipe cannot be made from a recipe"));
+    CHECK(refusal_of("http://127.0.0.1:9/a.mp4.srisp?reference=" + reference) ==
+          "photo 'http://127.0.0.1:9/a.mp4': is a URL; only files are read");
+    CHECK(has(refusal_of(photo + ".srisp?reference=http://127.0.0.1:9/a.dng"), "is a URL; only files are read"));
+    const std::string recipe = folder.file("u.srisp", R"({"format":"srisp-recipe-1","reference":"reference.exr",)"
+                                                      R"("source":"http://127.0.0.1:9/a.mp4"})");
+    CHECK(has(refusal_of(recipe), "'http://127.0.0.1:9/a.mp4' is a URL; only files are read"));
 }

@@ -10,11 +10,14 @@ grep -E '\.(cpp|h|cu|sh|py|cmake|in|map)$|CMakeLists\.txt$|^\.ci/run$' "$scratch
 has_licence() { ! xargs -d '\n' grep -L 'SPDX-License-Identifier: Apache-2.0' <"$scratch/sources" | grep .; }
 fits() { ! xargs -d '\n' -n 1 wc -l <"$scratch/sources" | awk '$1 > 500' | grep .; }
 formatted() { xargs -d '\n' clang-format-14 --dry-run -Werror <"$scratch/cpp"; }
+one_json_door() { ! grep -E '^(lib|plugin|ocio|tools)/' "$scratch/cpp" | grep -vx lib/base/json_text.cpp |
+    xargs -d '\n' grep -nE '(::|\.)(sax_)?parse\(|json::accept\(|json_stream' | grep -E 'json|sax_'; }
 parses() { grep '\.sh$' "$scratch/sources" | while read -r file; do sh -n "$file" || return 1; done; }
 
 check "every source file has its SPDX line" has_licence
 check "no source file is longer than 500 lines" fits
 check "every shell script parses" parses
+check "JSON is parsed by lib/base/json_text.cpp alone, which knows limits" one_json_door
 if command -v clang-format-14 >/dev/null; then
     check "clang-format-14 would change nothing" formatted
 else

@@ -10,7 +10,8 @@
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
+#include "base/json_text.h"
 #include "photo/photo_reader.h"
 
 namespace srisp::tool {
@@ -84,7 +85,6 @@ PhotoSample sample_of_thumbnail(const Thumbnail& picture, const std::string& nam
 
 namespace {
 
-constexpr std::size_t kLargestParameters = 1 << 20;
 const char kFullModel[] = "default";
 
 std::shared_ptr<const Model> pointwise_model(const std::string& name)
@@ -99,9 +99,9 @@ std::shared_ptr<const Model> pointwise_model(const std::string& name)
 
 Parameters given_parameters(const std::string& path, const Model& model)
 {
-    auto text = read_head(path, kLargestParameters);
+    const auto text = read_text_file(path, kLargestJson);
     if (!text)
-        fail("parameters '" + path + "': " + text.error().message);
+        fail("parameters " + text.error().message);
     const Parameters parameters = require(parameters_from_json(*text, "'" + path + "'"));
     if (const Status fits = check_parameters(parameters, model); !fits)
         fail("parameters '" + path + "': " + fits.error().message +

@@ -9,6 +9,7 @@
 #include "../common/failure.h"
 #include "base/device_output.h"
 #include "base/file_bytes.h"
+#include "base/shown_text.h"
 #include "ocio/src/operators.h"
 
 namespace srisp::tool {
@@ -168,14 +169,14 @@ std::string reference_line(const std::string& reference)
 
 void refuse_bake_of_another(const std::string& path, const std::string& reference)
 {
-    constexpr std::size_t begin = 16384;
-    const auto head = read_head(path, begin);
+    constexpr std::size_t kHeadOfBake = 16384;
+    const auto head = read_head(path, kHeadOfBake);
     const std::size_t start = head ? head->find(kReferenceLine) : std::string::npos;
     if (start == std::string::npos)
         return;
     const std::string line = head->substr(start, head->find_first_of("<\n", start) - start);
     if (line != reference_line(reference) && line != clf_escaped(reference_line(reference)))
-        fail("'" + path + "' is the bake of another reference (" + line.substr(sizeof kReferenceLine - 1) +
+        fail("'" + path + "' is the bake of another reference (" + shown_text(line.substr(sizeof kReferenceLine - 1)) +
              "); remove it, or give -o NAME");
 }
 

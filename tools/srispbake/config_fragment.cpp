@@ -10,8 +10,8 @@
 #include "../common/failure.h"
 #include "base/device_output.h"
 #include "base/file_bytes.h"
-#include "base/output_file.h"
 #include "base/installed_files.h"
+#include "base/output_file.h"
 #include "config_text.h"
 #include "linear_srgb.h"
 
@@ -30,6 +30,8 @@ std::string read_text(const std::string& path, const std::string& what)
     auto text = read_head(path, kLargestConfig);
     if (!text)
         fail(what + " '" + path + "': " + text.error().message);
+    if (text->size() == kLargestConfig)
+        fail(what + " '" + path + "': has too many bytes, the limit is " + std::to_string(kLargestConfig - 1));
     return *text;
 }
 

@@ -6,6 +6,7 @@
 
 #include "../common/failure.h"
 #include "base/near_names.h"
+#include "base/shown_text.h"
 #include "spectra.h"
 
 namespace srisp::tool {
@@ -34,7 +35,7 @@ std::string kind_of(const std::string& light, const std::string& where)
             return kind.kind;
         known += (known.empty() ? "" : ", ") + std::string(kind.prefix);
     }
-    fail(where + ": the kind of light '" + light + "' is not known; names must begin with " + known);
+    fail(where + ": the kind of light '" + shown_text(light) + "' is not known; names must begin with " + known);
 }
 
 /// JSON files of a folder whose names begin with `prefix`, sorted.
@@ -123,7 +124,7 @@ void add_lights(const SpectraTable& table, const std::string& source, const std:
             weights += luminosity[i];
         }
         if (!(weighted > 0))
-            fail(table.where + ": light '" + name + "' has no luminance");
+            fail(table.where + ": light '" + shown_text(name) + "' has no luminance");
         append(light, weights / weighted, result.spectra.lights);
         result.names.lights.push_back({ name, kind_of(name, table.where), source, licence });
     }

@@ -2,9 +2,10 @@
 #include "csv_table.h"
 
 #include <algorithm>
+#include <set>
 
 #include "base/input_file.h"
-#include "model/safetensors.h"
+#include "base/shown_text.h"
 
 #include "../common/failure.h"
 
@@ -13,6 +14,7 @@ namespace srisp::tool {
 namespace {
 
 constexpr std::uint64_t kMaxBytes = std::uint64_t(1) << 28;
+constexpr std::size_t kMaxColumns = 10000;
 
 /// Takes fields and rows from a text.
 class CsvReader {
@@ -81,9 +83,13 @@ CsvTable read_csv(const std::string& path)
         fail(where + " is empty");
     CsvTable table;
     table.columns = reader.row();
+    if (table.columns.size() > kMaxColumns)
+        fail(where + ": has " + std::to_string(table.columns.size()) + " columns, limit " +
+             std::to_string(kMaxColumns));
+    std::set<std::string> known;
     for (const std::string& column : table.columns)
-        if (std::count(table.columns.begin(), table.columns.end(), column) > 1)
-            fail(where + ": column '" + column + "' appears twice");
+        if (!known.insert(column).second)
+            fail(where + ": column '" + shown_text(column) + "' appears twice");
     while (!reader.at_end()) {
         const std::string here = reader.where();
         std::vector<std::string> row = reader.row();

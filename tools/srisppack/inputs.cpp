@@ -9,6 +9,7 @@
 #include "../common/failure.h"
 #include "base/file_bytes.h"
 #include "base/hashes.h"
+#include "base/regular_file.h"
 #include "camera_folder.h"
 #include "container/file_type.h"
 #include "container/reader_name.h"
@@ -63,6 +64,8 @@ public:
     void add(const std::string& input, Role role)
     {
         std::error_code error;
+        if (is_url(input))
+            fail("input '" + input + "' " + kIsUrl);
         if (!fs::exists(input, error))
             fail("input '" + input + "' does not exist");
         if (!fs::is_directory(input, error)) {

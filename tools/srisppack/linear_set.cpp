@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <set>
 #include <sstream>
 #include <utility>
 
 #include "base/file_part.h"
 #include "base/half_float.h"
+#include "base/input_file.h"
+#include "base/shown_text.h"
 #include "crops.h"
 #include "model/safetensors.h"
 #include "thumbnail/area_squasher.h"
@@ -26,6 +27,7 @@ struct LinearSet {
 
     RegularFile file;
     std::string where, camera, dataset, licence;
+    std::string camera_prefix; ///< of names; empty: they tell no cameras
     std::vector<std::string> names;
     std::int64_t count = 0;
     int width = 0, height = 0;
@@ -75,7 +77,7 @@ Status read_texts(LinearSet& set, const SafeTensorsHeader& header)
         return found == header.metadata.end() ? std::string() : found->second;
     };
     if (text("format") != kFormat)
-        return Error{ set.where + ": format is '" + text("format") + "', must be '" + kFormat + "'" };
+        return Error{ set.where + ": format is '" + shown_text(text("format")) + "', must be '" + kFormat + "'" };
     set.camera = text("camera");
     if (set.camera.empty())
         return Error{ set.where + ": metadata 'camera' is missing" };
@@ -107,6 +109,21 @@ Status read_raw_shape(LinearSet& set, const SafeTensorsHeader& header)
     return {};
 }
 
+std::string prefix_of(const std::string& name)
+{
+    return name.substr(0, name.find('_'));
+}
+
+/// The set's camera as names of images begin with it; empty where none does.
+std::string camera_prefix(const LinearSet& set)
+{
+    std::string joined = set.camera;
+    joined.erase(std::remove(joined.begin(), joined.end(), ' '), joined.end());
+    const bool used = std::any_of(set.names.begin(), set.names.end(),
+                                  [&](const std::string& name) { return prefix_of(name) == joined; });
+    return used ? joined : "";
+}
+
 Expected<std::shared_ptr<const LinearSet>> open_set(const std::string& path)
 {
     const std::string where = "set '" + path + "'";
@@ -129,24 +146,15 @@ Expected<std::shared_ptr<const LinearSet>> open_set(const std::string& path)
     if (!set->names.empty() && std::int64_t(set->names.size()) != set->count)
         return Error{ set->where + ": metadata 'names' has " + std::to_string(set->names.size()) +
                       " words, the set has " + std::to_string(set->count) + " images" };
+    set->camera_prefix = camera_prefix(*set);
     return std::shared_ptr<const LinearSet>(set);
-}
-
-std::string prefix_of(const std::string& name)
-{
-    return name.substr(0, name.find('_'));
 }
 
 /// Sets may hold images of a second camera; then their names begin with the cameras' ("NikonD40_0001" in a set of the
 /// Nikon D5200).
 std::string camera_of(const LinearSet& set, std::int64_t index)
 {
-    std::set<std::string> prefixes;
-    for (const std::string& name : set.names)
-        prefixes.insert(prefix_of(name));
-    std::string joined = set.camera;
-    joined.erase(std::remove(joined.begin(), joined.end(), ' '), joined.end());
-    if (prefixes.count(joined) == 0 || prefix_of(set.names[index]) == joined)
+    if (set.camera_prefix.empty() || prefix_of(set.names[index]) == set.camera_prefix)
         return set.camera;
     const std::string prefix = prefix_of(set.names[index]), make = set.camera.substr(0, set.camera.find(' '));
     return prefix.compare(0, make.size(), make) == 0 ? make + " " + prefix.substr(make.size()) : prefix;

@@ -6,6 +6,7 @@
 
 #include "base/hashes.h"
 #include "base/near_names.h"
+#include "base/shown_text.h"
 
 #include "../common/failure.h"
 #include "csv_table.h"
@@ -33,7 +34,7 @@ bool either(const std::vector<std::string>& row, int column, const char* first, 
     if (column < 0 || row[column] == second)
         return false;
     if (row[column] != first)
-        fail(where + ": '" + row[column] + "' is neither " + first + " nor " + second);
+        fail(where + ": '" + shown_text(row[column]) + "' is neither " + first + " nor " + second);
     return true;
 }
 
@@ -52,7 +53,7 @@ Manifest Manifest::of_folder(const std::string& folder)
     if (file < 0)
         fail("'" + path + "' has no column 'file'" + near_names("file", table.columns));
     for (const std::vector<std::string>& row : table.rows) {
-        const std::string where = "'" + path + "', file '" + row[file] + "'";
+        const std::string where = "'" + path + "', file '" + shown_text(row[file]) + "'";
         Provenance provenance;
         provenance.listed = true;
         provenance.validation = either(row, use, "validation", "training", where);

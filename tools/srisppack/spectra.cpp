@@ -6,14 +6,12 @@
 #include <cstdlib>
 #include <map>
 
-#include <nlohmann/json.hpp>
-
 #include "../common/failure.h"
 #include "base/input_file.h"
 #include "base/json_object.h"
 #include "base/matrix3.h"
+#include "base/shown_text.h"
 #include "csv_table.h"
-#include "model/safetensors.h"
 
 namespace srisp::tool {
 
@@ -22,19 +20,23 @@ namespace {
 using nlohmann::json;
 
 constexpr std::uint64_t kMaxBytes = 1 << 26;
+constexpr std::size_t kMaxColumns = 10000;
 
 double as_number(const std::string& text, const std::string& where)
 {
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     if (text.empty() || *end != '\0' || !std::isfinite(value))
-        fail(where + ": '" + text + "' is not a finite number");
+        fail(where + ": '" + shown_text(text) + "' is not a finite number");
     return value;
 }
 
 /// Puts the rows in order and checks what both formats must keep.
 SpectraTable from_rows(SpectraTable table, const std::map<double, std::vector<double>>& rows)
 {
+    if (table.columns.size() > kMaxColumns)
+        fail(table.where + " has " + std::to_string(table.columns.size()) + " columns, limit " +
+             std::to_string(kMaxColumns));
     if (table.columns.empty() || rows.empty())
         fail(table.where + " holds no spectra");
     if (rows.begin()->first > 400 || rows.rbegin()->first < 700)
@@ -67,7 +69,7 @@ SpectraTable read_spectra_json(const std::string& path)
     const Expected<std::string> text = read_file(path, kMaxBytes, "spectra");
     if (!text)
         fail(text.error().message);
-    const Expected<json> file = parse_json_object(*text, table.where, "file");
+    const Expected<json> file = parse_json_object(*text, table.where, "file", kMaxBytes);
     if (!file)
         fail(file.error().message);
     const json header = file->value("header", json::object());
@@ -79,13 +81,14 @@ SpectraTable read_spectra_json(const std::string& path)
     if (!columns.is_array() || !data.is_object())
         fail(table.where + " has no spectral_data with index and data");
     for (const json& column : columns)
-        table.columns.push_back(column.is_string() ? column.get<std::string>() : column.dump());
+        table.columns.push_back(column.is_string() ? column.get<std::string>() : shown_json(column));
     std::map<double, std::vector<double>> rows;
     for (const auto& [wavelength, values] : data.items()) {
         std::vector<double>& row = rows[as_number(wavelength, table.where)];
         for (const json& value : values) {
             if (!value.is_number() || !std::isfinite(value.get<double>()))
-                fail(table.where + ", " + wavelength + " nm: " + value.dump() + " is not a finite number");
+                fail(table.where + ", " + shown_text(wavelength) + " nm: " + shown_json(value) +
+                     " is not a finite number");
             row.push_back(value.get<double>());
         }
     }
@@ -104,7 +107,8 @@ SpectraTable read_spectra_csv(const std::string& path)
     for (const std::vector<std::string>& fields : csv.rows) {
         std::vector<double>& row = rows[as_number(fields[0], table.where)];
         for (std::size_t i = 1; i < fields.size(); ++i)
-            row.push_back(as_number(fields[i], table.where + ", " + fields[0] + " nm, '" + csv.columns[i] + "'"));
+            row.push_back(as_number(fields[i], table.where + ", " + shown_text(fields[0]) + " nm, '" +
+                                                   shown_text(csv.columns[i]) + "'"));
     }
     return from_rows(std::move(table), rows);
 }

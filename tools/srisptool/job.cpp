@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/near_names.h"
+#include "base/regular_file.h"
 #include "model/model_files.h"
 #include "recipe/frame_pattern.h"
 #include "recipe/option_table.h"
@@ -32,11 +33,16 @@ bool exists(const std::string& path)
 
 std::string existing_file(const std::string& command, const std::string& what, const std::string& path)
 {
+    const std::string named = command + ": " + what + " '" + path + "' ";
     std::error_code error;
+    if (is_url(path))
+        fail(named + kIsUrl);
     if (fs::is_directory(path, error))
-        fail(command + ": " + what + " '" + path + "' is a folder, not a file");
+        fail(named + kIsFolder);
     if (!exists(path))
-        fail(command + ": " + what + " '" + path + "' does not exist");
+        fail(named + "does not exist");
+    if (!fs::is_regular_file(path, error))
+        fail(named + kIsNoRegularFile);
     return absolute(path);
 }
 
@@ -68,6 +74,8 @@ nlohmann::json existing_references(const std::string& command, const std::string
         fail_usage(command + ": the list of references '" + text + "' is empty");
     std::vector<std::string> paths;
     for (const std::string& item : *typed) {
+        if (is_url(item))
+            fail(command + ": reference '" + item + "' " + kIsUrl);
         if (!exists(item))
             if (const auto files = expand_references({ item }); !files || !exists(files->front()))
                 fail(command + ": reference '" + item + "' does not exist");

@@ -2,6 +2,7 @@
 #include "messages.h"
 
 #include <algorithm>
+#include <climits>
 #include <cstring>
 #include <filesystem>
 #include <regex>
@@ -81,8 +82,8 @@ bool take_off(std::string& text, const std::string& beginning)
 /// A reason that says itself which file is meant: "reference 'a.dng': …".
 bool names_a_file(const std::string& reason)
 {
-    static const std::regex file("[a-z][a-z ]* '.*");
-    return std::regex_match(reason, file);
+    const std::size_t kind = reason.find_first_not_of("abcdefghijklmnopqrstuvwxyz ");
+    return kind != std::string::npos && kind > 1 && reason[kind] == '\'' && reason[kind - 1] == ' ' && reason[0] != ' ';
 }
 
 /// The reason why an image was refused, behind its name as the user typed it.
@@ -216,8 +217,11 @@ std::optional<Messages::Name> Messages::find_name(const std::string& text) const
     static const std::regex name("([0-9]+)(?:\\.([^ \"/]*?))?\\.(?:srisp|json)");
     for (std::size_t at = 0; (at = text.find(m_folder + "/", at)) != std::string::npos; ++at) {
         std::smatch match;
-        const auto begin = text.begin() + static_cast<std::ptrdiff_t>(at + m_folder.size() + 1);
-        if (!std::regex_search(begin, text.end(), match, name, std::regex_constants::match_continuous))
+        const std::size_t start = at + m_folder.size() + 1;
+        const auto begin = text.begin() + static_cast<std::ptrdiff_t>(start);
+        // Ours are short, and std::regex calls itself for every character.
+        const auto end = begin + static_cast<std::ptrdiff_t>(std::min<std::size_t>(text.size() - start, NAME_MAX));
+        if (!std::regex_search(begin, end, match, name, std::regex_constants::match_continuous))
             continue;
         const auto found = m_subjects.find(match.str(1));
         if (found == m_subjects.end())

@@ -6,6 +6,7 @@
 #include <torch/cuda.h>
 
 #include "../common/failure.h"
+#include "base/json_text.h"
 #include "model/model_files.h"
 #include "output_folder.h"
 #include "train/run/model_file.h"
@@ -48,8 +49,8 @@ std::string kind_difference(const ModelSettings& there, const ModelSettings& her
     std::string text;
     for (const auto& [key, value] : new_values.items())
         if (old_values[key] != value && (key != "unet_channels" || here.method == "unet"))
-            text += (text.empty() ? "'model." : ", 'model.") + key + "' is " + old_values[key].dump() + " there, " +
-                    value.dump() + " here";
+            text += (text.empty() ? "'model." : ", 'model.") + key + "' is " + shown_json(old_values[key]) +
+                    " there, " + shown_json(value) + " here";
     return text;
 }
 

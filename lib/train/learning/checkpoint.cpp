@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/learning/checkpoint.h"
 
-#include <nlohmann/json.hpp>
-
 #include "base/input_file.h"
+#include "base/json_text.h"
+#include "base/shown_text.h"
 #include "model/safetensors.h"
 
 namespace srisp::train {
@@ -12,6 +12,19 @@ namespace {
 
 const char kFormat[] = "srisp-checkpoint-1";
 constexpr std::uint64_t kMaxBytes = 8ull << 30;
+constexpr std::size_t kMaxTextBytes = std::size_t(64) << 20;
+
+template<class Value> bool read_map(const std::string& text, std::map<std::string, Value>& map)
+{
+    const auto object = parse_json<nlohmann::json>(text, kMaxTextBytes);
+    try {
+        if (object)
+            map = object->get<std::map<std::string, Value>>();
+        return bool(object);
+    } catch (const nlohmann::json::exception&) { // of another type
+        return false;
+    }
+}
 
 } // namespace
 
@@ -41,14 +54,11 @@ Expected<TrainingState> load_checkpoint(const std::string& path)
         return file.error();
     auto& metadata = file->metadata;
     if (metadata["format"] != kFormat)
-        return Error{ where + ": format is '" + metadata["format"] + "', this program reads '" + kFormat + "'" };
+        return Error{ where + ": format is '" + shown_text(metadata["format"]) + "', this program reads '" + kFormat +
+                      "'" };
     TrainingState state;
-    try {
-        state.numbers = nlohmann::json::parse(metadata["numbers"]).get<std::map<std::string, double>>();
-        state.texts = nlohmann::json::parse(metadata["texts"]).get<std::map<std::string, std::string>>();
-    } catch (const nlohmann::json::exception&) {
+    if (!read_map(metadata["numbers"], state.numbers) || !read_map(metadata["texts"], state.texts))
         return Error{ where + ": metadata 'numbers' or 'texts' is broken" };
-    }
     for (const auto& [name, tensor] : file->tensors)
         state.tensors[name] = torch::tensor(tensor.values).reshape(tensor.shape);
     state.layout = metadata["layout"];

@@ -7,6 +7,7 @@
 
 #include "base/half_float.h"
 #include "base/input_file.h"
+#include "base/json_text.h"
 #include "model/model_data.h"
 #include "model/safetensors.h"
 #include "train/baselines/baselines.h"
@@ -125,12 +126,12 @@ ModelSettings settings_of(const ModelData& data)
 Expected<ModelSettings> baseline_settings(const std::map<std::string, std::string>& metadata, const std::string& where)
 {
     const auto text = metadata.find("settings");
-    const nlohmann::json object =
-        text == metadata.end() ? nlohmann::json() : nlohmann::json::parse(text->second, nullptr, false);
-    if (!object.is_object())
+    const auto object =
+        text == metadata.end() ? Expected<nlohmann::json>(nullptr) : parse_json<nlohmann::json>(text->second);
+    if (!object || !object->is_object())
         return Error{ where + ": metadata 'settings' is missing or no JSON object" };
     ModelSettings settings;
-    SettingsReader reader(object, where + ": metadata 'settings'");
+    SettingsReader reader(*object, where + ": metadata 'settings'");
     settings.describe(reader);
     if (Status status = reader.finish(); !status)
         return status.error();

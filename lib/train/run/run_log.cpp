@@ -7,11 +7,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <memory>
+#include <sstream>
 
+#include "base/input_file.h"
+#include "base/json_text.h"
 #include "base/output_file.h"
 
 namespace srisp::train {
@@ -20,6 +22,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
+constexpr std::uint64_t kMostBytes = std::uint64_t(1) << 32;
 const char* const kColumns[] = { "step",        "seconds",    "steps_per_second", "loss",
                                  "reverse",     "forward",    "teacher",          "gradient_norm",
                                  "rate_factor", "data_share", "learning_share",   "score",
@@ -55,11 +58,14 @@ Status append(const std::string& path, const std::string& line)
 Status keep_lines(const std::string& path, std::int64_t step,
                   const std::function<std::int64_t(const std::string&)>& step_of)
 {
-    std::ifstream file(path);
-    if (!file)
+    if (!std::filesystem::exists(path))
         return {};
+    const Expected<std::string> text = read_file(path, kMostBytes, "log");
+    if (!text)
+        return text.error();
     std::string kept;
-    for (std::string line; std::getline(file, line);)
+    std::istringstream lines(*text);
+    for (std::string line; std::getline(lines, line);)
         if (const std::int64_t of_line = step_of(line); of_line >= 0 && of_line <= step)
             kept += line + "\n";
     return write_output_file(path, kept);
@@ -77,10 +83,9 @@ std::int64_t step_of_csv(const std::string& line)
 
 std::int64_t step_of_json(const std::string& line)
 {
-    const ordered_json entry = ordered_json::parse(line, nullptr, false);
-    return entry.is_object() && entry.contains("step") && entry["step"].is_number_integer()
-               ? entry["step"].get<std::int64_t>()
-               : -1;
+    const auto entry = parse_json<nlohmann::json>(line);
+    const nlohmann::json step = entry && entry->is_object() ? entry->value("step", nlohmann::json()) : nlohmann::json();
+    return step.is_number_integer() ? step.get<std::int64_t>() : -1;
 }
 
 } // namespace

@@ -6,9 +6,10 @@
 #include <set>
 
 #include "base/input_file.h"
+#include "base/installed_files.h"
 #include "base/json_object.h"
 #include "base/near_names.h"
-#include "base/installed_files.h"
+#include "base/shown_text.h"
 #include "model/safetensors.h"
 
 namespace srisp::train {
@@ -45,7 +46,7 @@ Expected<std::string> find_recipe(const std::string& name, const std::string& us
             !(fs::exists(user, error) && fs::equivalent(path, user, error)))
             return path.string();
     }
-    return Error{ "unknown recipe '" + name + "'" + near_names(name, recipe_names()) };
+    return Error{ "unknown recipe '" + shown_text(name) + "'" + near_names(name, recipe_names()) };
 }
 
 Status apply(TrainingRecipe& recipe, const json& object, const std::string& where)
@@ -71,7 +72,7 @@ Status read_into(TrainingRecipe& recipe, const std::string& path, std::vector<st
         return object.error();
     if (const auto base = object->find("base"); base != object->end()) {
         if (!base->is_string())
-            return Error{ where + ": 'base' must be the name or path of a recipe, has " + base->dump() };
+            return Error{ where + ": 'base' must be the name or path of a recipe, has " + shown_json(*base) };
         const Expected<std::string> file = find_recipe(base->get<std::string>(), path);
         if (!file)
             return Error{ where + ": 'base': " + file.error().message };
@@ -118,12 +119,17 @@ Expected<LoadedRecipe> load_recipe(const std::string& name_or_path, const std::v
     return loaded;
 }
 
-std::string recipe_text(const TrainingRecipe& recipe)
+static nlohmann::ordered_json recipe_object(const TrainingRecipe& recipe)
 {
     TrainingRecipe copy = recipe; // a visitor could change it
     SettingsWriter writer;
     copy.describe(writer);
-    return writer.object().dump(2) + "\n";
+    return writer.object();
+}
+
+std::string recipe_text(const TrainingRecipe& recipe)
+{
+    return recipe_object(recipe).dump(2) + "\n";
 }
 
 std::vector<SettingRow> recipe_rows(const TrainingRecipe& recipe)
@@ -132,6 +138,11 @@ std::vector<SettingRow> recipe_rows(const TrainingRecipe& recipe)
     SettingsLister lister;
     copy.describe(lister);
     return lister.rows();
+}
+
+static json flat_recipe(const TrainingRecipe& recipe)
+{
+    return flat_settings(json(recipe_object(recipe)));
 }
 
 std::string recipe_difference(const std::string& there, const TrainingRecipe& here)
@@ -143,13 +154,13 @@ std::string recipe_difference(const std::string& there, const TrainingRecipe& he
     // Settings that this program has learnt since then have their defaults there.
     if (Status status = apply(other, *object, "its recipe"); !status)
         return status.error().message;
-    const json old_values = flat_settings(json::parse(recipe_text(other)));
-    const json new_values = flat_settings(json::parse(recipe_text(here)));
+    const json old_values = flat_recipe(other);
+    const json new_values = flat_recipe(here);
     std::string text;
     for (const auto& [key, value] : new_values.items())
         if (kFree.count(key) == 0 && old_values[key] != value)
-            text += (text.empty() ? "" : "; ") + key + " is " + old_values[key].dump() + " there, " + value.dump() +
-                    " here";
+            text += (text.empty() ? "" : "; ") + key + " is " + shown_json(old_values[key]) + " there, " +
+                    shown_json(value) + " here";
     return text;
 }
 

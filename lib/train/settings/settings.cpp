@@ -5,7 +5,9 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/json_text.h"
 #include "base/near_names.h"
+#include "base/shown_text.h"
 
 namespace srisp::train {
 
@@ -76,7 +78,7 @@ const json* SettingsReader::find(const char* name)
 
 void SettingsReader::fail(const char* name, const std::string& wanted, const json& value)
 {
-    m_error = m_where + ": '" + key(name) + "' must be " + wanted + ", has " + value.dump();
+    m_error = m_where + ": '" + key(name) + "' must be " + wanted + ", has " + shown_json(value);
 }
 
 void SettingsReader::number(const char* name, double& value, double low, double high, const char*)
@@ -112,7 +114,7 @@ void SettingsReader::choice(const char* name, std::string& value, const std::vec
     if (found && !found->is_string())
         fail(name, "one of " + choices_text(allowed), *found);
     else if (found && std::find(allowed.begin(), allowed.end(), found->get<std::string>()) == allowed.end())
-        m_error = m_where + ": '" + key(name) + "' has an unknown value " + found->dump() +
+        m_error = m_where + ": '" + key(name) + "' has an unknown value " + shown_json(*found) +
                   near_names(found->get<std::string>(), allowed);
     else if (found)
         value = found->get<std::string>();
@@ -146,7 +148,7 @@ Status SettingsReader::finish()
 {
     for (const auto& [key, value] : m_values.items())
         if (m_error.empty() && std::find(m_known.begin(), m_known.end(), key) == m_known.end())
-            m_error = m_where + ": unknown setting '" + key + "'" + near_names(key, m_known);
+            m_error = m_where + ": unknown setting '" + shown_text(key) + "'" + near_names(key, m_known);
     return m_error.empty() ? Status() : Status(Error{ m_error });
 }
 
@@ -240,12 +242,10 @@ Expected<json> parse_assignment(const std::string& assignment)
     if (equals == 0 || equals == std::string::npos)
         return Error{ "--set " + assignment + ": expected key=value" };
     const std::string text = assignment.substr(equals + 1);
-    json value = json::parse(text, nullptr, false);
-    if (value.is_discarded())
-        value = json::parse("[" + text + "]", nullptr, false);
-    if (value.is_discarded() || text.empty())
-        value = text;
-    return json{ { assignment.substr(0, equals), value } };
+    Expected<json> value = parse_json<json>(text);
+    if (!value)
+        value = parse_json<json>("[" + text + "]");
+    return json{ { assignment.substr(0, equals), value && !text.empty() ? *value : json(text) } };
 }
 
 } // namespace srisp::train

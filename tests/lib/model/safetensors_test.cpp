@@ -211,3 +211,19 @@ TEST_CASE("an output file that cannot be written says which and why")
           "'" + folder.path("folder") + "' cannot be renamed from its temporary name: Is a directory");
     CHECK(std::distance(std::filesystem::directory_iterator(folder.path("")), {}) == 1);
 }
+
+TEST_CASE("a header of very many or very deep entries is refused at once, in a short message")
+{
+    std::string equal = "{", different = "{";
+    for (int i = 0; i < 200000; ++i) {
+        equal += std::string(i ? "," : "") + "\"\":{}";
+        different += (i ? ",\"" : "\"") + std::to_string(i) + "\":{}";
+    }
+    CHECK(message(file_of(equal + "}", "")) == "model 'm': '' appears twice in the header");
+    CHECK(message(file_of(different + "}", "")) == "model 'm': has 200000 tensors, limit 65536");
+    CHECK(message(file_of("{\"x\":" + std::string(100000, '['), "")) ==
+          "model 'm': header is nested more than 32 levels deep");
+    CHECK(message(file_of("{\"" + std::string(1000000, 'n') + "\":{}}", "")).size() < 300);
+    CHECK(message(file_of(std::string((std::size_t(16) << 20) + 1, ' '), "")) ==
+          "model 'm': header of 16777217 bytes, limit 16777216");
+}

@@ -138,3 +138,25 @@ TEST_CASE("broken parameters are refused, each with its own message")
     CHECK(message_after([](json& o) { o["model"] = "default"; }) ==
           what + " 'model' must be an object with name and hash");
 }
+
+TEST_CASE("parameters that a stranger has nested, filled or swollen are refused in a short message")
+{
+    const auto refused = [](const std::string& text) {
+        const auto parameters = parameters_from_json(text, "'p.json'");
+        return parameters ? "no error" : parameters.error().message;
+    };
+    const std::string what = "parameters in 'p.json': ", deep = std::string(100000, '[') + std::string(100000, ']');
+    CHECK(refused(deep) == what + "is nested more than 32 levels deep");
+    CHECK(refused("{\"gain\":" + deep + "}") == what + "is nested more than 32 levels deep");
+    CHECK(refused("{\"gain\":1,\"gain\":2}") == what + "has 'gain' twice in one object");
+    CHECK(refused("[\"" + std::string(2000000, 'x') + "\"]") == what + "has 2000004 bytes of JSON, limit 1048576");
+    json object = json::parse(to_json(random_parameters(1)));
+    object["gain"] = std::string(100000, 'x');
+    CHECK(refused(object.dump()).size() < 300);
+    object["format"] = std::string(100000, 'x');
+    CHECK(refused(object.dump()).size() < 300);
+    object = json::parse(to_json(random_parameters(1)));
+    for (int i = 0; i < 50000; ++i)
+        object["k" + std::to_string(i)] = 0;
+    CHECK(refused(object.dump()).find("unknown key 'k0'") != std::string::npos);
+}

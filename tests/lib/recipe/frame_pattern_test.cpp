@@ -54,3 +54,15 @@ TEST_CASE("frame numbers replace # and %d in file names")
     CHECK(with_frame("p.json", "7") == "p.json");
     CHECK(with_frame("p.#.json", "") == "p.#.json");
 }
+
+TEST_CASE("names that are nothing but wildcards or digits, however long, are no trouble")
+{
+    const std::string hashes(1000000, '#'), digits(1000000, '1');
+    CHECK(with_frame(hashes, "7").size() == hashes.size());
+    CHECK(with_frame(digits + "%d", "7") == digits + "7");
+    CHECK(with_frame("%" + digits + "d", "7") == "%" + digits + "d");
+    CHECK(find_frame_wildcard(hashes).length == 0);
+    CHECK(find_frame_wildcard(digits + "-" + digits).length == 0);
+    CHECK(with_frame("a%123d.%00d.%2d", "7") == "a%123d.7.%2d");
+    CHECK(with_frame("a%x.%04d", "-7") == "a%x.-007");
+}

@@ -127,3 +127,33 @@ TEST_CASE("a wrong recipe says what is wrong, and where")
         has(refused(R"({"format": "srisp-recipe-1", "parameters": 1})"), "'parameters': must be an object or a path"));
     CHECK(has(refused(R"({"format": "srisp-recipe-1", "direction": "fwd"})"), "unknown direction 'fwd'"));
 }
+
+TEST_CASE("a recipe that a stranger has nested, swollen or doubled is refused in a short message")
+{
+    const std::string deep = std::string(100000, '[') + std::string(100000, ']');
+    const std::string start = R"({"format": "srisp-recipe-1", "source": "p.jpg", )";
+    for (const char* key : { "parameters", "reference", "model", "no_such_key" })
+        CHECK(refused(start + "\"" + key + "\":" + deep + "}") ==
+              "recipe '/shots/a.srisp': is nested more than 32 levels deep");
+    CHECK(has(refused(start + R"("source": "q.jpg"})"), "has 'source' twice in one object"));
+    CHECK(has(refused(start + "\"model\":\"" + std::string(2000000, 'x') + "\"}"), "limit 1048576"));
+    CHECK(refused(start + "\"" + std::string(100000, 'x') + "\":1}").size() < 1000);
+    CHECK(refused(start + "\"input\":\"" + std::string(100000, 'x') + "\"}").size() < 1000);
+    CHECK(has(refused(start + "\"parameters\":{\"gain\":" + deep + "}}"), "nested"));
+}
+
+TEST_CASE("no URL, endless text or hidden end is taken for a path, wherever a recipe holds one")
+{
+    for (const std::string key : { "source", "model", "reference", "parameters" }) {
+        const auto told = [&](const std::string& value) {
+            return refused(R"({"format": "srisp-recipe-1", ")" + key + "\": \"" + value + "\"}");
+        };
+        CHECK(told("http://127.0.0.1:9/a.mp4") ==
+              "recipe '/shots/a.srisp': '" + key + "': 'http://127.0.0.1:9/a.mp4' is a URL; only files are read");
+        CHECK(has(told("a/" + std::string(5000, 'x')), "': has a path of 5002 bytes, limit 4095"));
+        CHECK(has(told("a/b.safetensors\\u0000.jpg"), "is no path: it holds a zero byte"));
+    }
+    Recipe recipe;
+    for (const char* key : { "reference", "model", "params" })
+        CHECK(has(set_by_text(recipe, key, "https://127.0.0.1:9/x").error().message, "is a URL; only files are read"));
+}

@@ -131,3 +131,20 @@ TEST_CASE("The choice depends on seed and the photo's base name alone, and reach
     CHECK(by_seed.size() == 10);
     CHECK(by_name.size() == 10);
 }
+
+TEST_CASE("a list of references that is all ';', or longer than any, is told at once, and a URL is never one")
+{
+    const ScratchFolder folder;
+    folder.file("a;b.dng");
+    std::string list;
+    for (int i = 0; i < 20000; ++i)
+        list += "a.dng;";
+    CHECK(split_references(list)->size() == 20000);
+    CHECK(split_references(list + "a;b.dng", folder.path())->back() == "a;b.dng");
+    const auto all = split_references(std::string(200000, ';'));
+    CHECK(all.error().message.find("no file in this list") != std::string::npos);
+    const auto endless = split_references(std::string(1000000, ';'));
+    CHECK(endless.error().message.find("this list has 1000000 bytes, limit 262144") != std::string::npos);
+    CHECK(chosen("http://127.0.0.1:9/a.dng", 0, "p.jpg") ==
+          "reference 'http://127.0.0.1:9/a.dng': is a URL; only files are read");
+}

@@ -202,3 +202,26 @@ TEST_CASE("a header without parameters still says what the image is")
     CHECK(!recorded_parameters(spec, "x"));
     CHECK(spec.get_string_attribute("oiio:ColorSpace") == "camera_rgb");
 }
+
+TEST_CASE("a photo whose caption holds a nested, doubled or broken record is a photo without one")
+{
+    const std::string deep = std::string(100000, '['), end = std::string(100000, ']');
+    const std::vector<std::string> captions = { R"({"srisp":)" + deep,
+                                                R"({"srisp":)" + deep + end + "}",
+                                                R"({"srisp":"x","parameters":)" + deep + end + "}",
+                                                R"({"srisp":"x","direction":"reverse","direction":"reverse"})",
+                                                R"({"srisp":})",
+                                                R"({"srisp":"x)" };
+    for (const std::string& caption : captions) {
+        OIIO::ImageSpec spec = photo_spec();
+        spec.attribute("ImageDescription", caption);
+        spec.attribute("unprocess:record", caption);
+        CHECK(!is_unprocessed(spec));
+        CHECK(recorded_parameters(spec, "p.jpg").error().message.find("p.jpg: holds no recorded parameters") == 0);
+        record_result(spec, some_parameters(), nullptr, Direction::reverse);
+        CHECK(bool(recorded_parameters(spec, "raw.exr")));
+        const auto record = find_record(spec.get_string_attribute("ImageDescription"));
+        REQUIRE(record);
+        CHECK(record->description == caption); // the photo's own words, whatever they are
+    }
+}

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../../../tools/srisppack/manifest.h"
 
+#include <filesystem>
+
+#include <sys/stat.h>
+
 #include <doctest/doctest.h>
 
 #include "../../../tools/srisppack/csv_table.h"
@@ -71,4 +75,20 @@ TEST_CASE("without a manifest about every tenth file is for validation, the same
     CHECK(validation == 982); // what counts is that it never changes
     CHECK_FALSE(none.of("IMG_1.jpg").open);
     CHECK(none.of("IMG_1.jpg").validation == none.of("folder/IMG_1.jpg").validation);
+}
+
+TEST_CASE("a table that a stranger has filled with columns, or that is no file, is refused at once")
+{
+    const ScratchFolder scratch;
+    std::string many = "x";
+    for (int i = 0; i < 300000; ++i)
+        many += "," + std::to_string(i);
+    const std::string table = scratch.file("manifest.csv", many + "\n");
+    CHECK(failure_of([&] { read_csv(table); }) == "1: '" + table + "': has 300001 columns, limit 10000");
+    scratch.file("manifest.csv", std::string(10000000, 'f') + "\n");
+    CHECK(failure_of([&] { Manifest::of_folder(scratch.path()); }).size() < 1000);
+    std::filesystem::remove(table);
+    REQUIRE(::mkfifo(table.c_str(), 0600) == 0);
+    CHECK(failure_of([&] { Manifest::of_folder(scratch.path()); }) ==
+          "1: table: '" + table + "' is not a regular file");
 }

@@ -120,3 +120,13 @@ TEST_CASE("a write that failed is told once, with name and reason, in place of w
         shown("srisp output guard: No space: " + (std::filesystem::current_path() / "b: c.0123abcd.temp.png").string() +
               "\n") == "srisptool: ERROR: output 'b: c.png' cannot be written: No space\n");
 }
+
+TEST_CASE("a reason of any length is shown")
+{
+    const std::string endless(1000000, 'x');
+    CHECK(shown("oiiotool ERROR: read : \"/T/1.srisp\": photo '/home/a.jpg': " + endless + "\n") ==
+          "srisptool: ERROR: photo 'a.jpg': " + endless + "\n");
+    CHECK(shown("oiiotool ERROR: read : \"/T/1.srisp\": " + endless + " '" + endless + "\n") ==
+          "srisptool: ERROR: " + endless + " '" + endless + "\n");
+    CHECK(shown("/T/" + std::string(100000, '1') + "." + endless + "\n").size() > endless.size());
+}
