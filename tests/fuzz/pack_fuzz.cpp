@@ -4,6 +4,7 @@
 // be read, or an error that names the pack. Most useful with SRISP_SANITIZE. Usage: pack_fuzz [rounds] [seed]
 #include <cstdio>
 #include <cstdlib>
+#include <numeric>
 #include <random>
 
 #include "pack/training_pack.h"
@@ -47,8 +48,8 @@ std::uint64_t sum_of(const PackedImages& images)
 {
     std::uint64_t sum = 0;
     for (std::size_t i = 0; i < images.entries.size(); ++i)
-        for (const std::uint16_t value : *images.image(i))
-            sum += value;
+        if (const auto values = images.image(i))
+            sum = std::accumulate(values->begin(), values->end(), sum);
     return sum;
 }
 

@@ -39,7 +39,8 @@ enum class GainMapUse {
 
 /// What may be asked for beside a photo and a reference.
 struct Options {
-    std::string model; ///< name, or path of a .safetensors file; empty: what `parameters` name, else "default"
+    std::string model;                    ///< name, or path of a .safetensors file; empty: the known one that
+                                          ///< has the name and hash in `parameters`, else "default"
     std::optional<Parameters> parameters; ///< in place of selected ones (reverse) or recorded ones (forward)
     InputEncoding input = InputEncoding::automatic;
     Precision precision = Precision::float32;
