@@ -3,6 +3,9 @@
 
 #include <filesystem>
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <OpenImageIO/strutil.h>
 
 #include "base/input_file.h"
@@ -169,9 +172,19 @@ Status apply_hints(Recipe& recipe, const OIIO::ImageSpec& config)
     return {};
 }
 
+/// A job says where parameters are saved: that of a stranger, who put it beside what a user writes, is none.
+static bool is_private(const std::filesystem::path& folder)
+{
+    struct stat info {};
+    return ::stat(folder.empty() ? "." : folder.c_str(), &info) == 0 && info.st_uid == ::geteuid() &&
+           (info.st_mode & (S_IRWXG | S_IRWXO)) == 0;
+}
+
 Expected<Recipe> read_job(const std::string& stub_path)
 {
     const auto [path, frame] = parse_stub_name(stub_path);
+    if (!is_private(std::filesystem::path(path).parent_path()))
+        return Error{ "job '" + path + "' does not lie in a folder that srisptool made for itself" };
     auto text = read_text_file(path, kLargestJson);
     if (!text)
         return Error{ "job " + text.error().message };

@@ -3,6 +3,8 @@
 
 #include <fstream>
 
+#include <sys/stat.h>
+
 #include <srisp/metadata.h>
 
 #include "srisp_output.h"
@@ -170,6 +172,19 @@ TEST_CASE("only names that belong to a job are written")
     deep.deep = true;
     CHECK(!output.open(folder.path("1.1.srisp"), deep, OIIO::ImageOutput::Create));
     CHECK(has(output.geterror(), "deep"));
+}
+
+TEST_CASE("a job in a folder that others can write to is no job")
+{
+    const ScratchFolder folder;
+    job_file(folder, "1.json", ", \"action\": \"save\", \"file\": \"" + folder.path("victim.txt") + "\"");
+    REQUIRE(::chmod(folder.path().c_str(), 0755) == 0);
+    SrispOutput output;
+    CHECK(!output.open(folder.path("1.srisp"), photo_spec(), OIIO::ImageOutput::Create));
+    CHECK(has(output.geterror(), "does not lie in a folder that srisptool made for itself"));
+    REQUIRE(::chmod(folder.path().c_str(), 0700) == 0);
+    CHECK(output.open(folder.path("1.srisp"), photo_spec(), OIIO::ImageOutput::Create));
+    CHECK(output.geterror() == "");
 }
 
 TEST_CASE("a text is a stub, or none")
