@@ -155,6 +155,14 @@ Status check_claim(const char* reader, std::uint64_t width, std::uint64_t height
                   std::to_string(densest) + " pixels in a byte" };
 }
 
+void limit_strips(OIIO::ImageSpec& spec)
+{
+    const char kRows[] = "tiff:RowsPerStrip";
+    const int rows = spec.get_int_attribute(kRows, 1);
+    if (rows < 1 || rows > spec.height)
+        spec.attribute(kRows, spec.height);
+}
+
 int rows_in_tiles(std::int64_t wanted, const OIIO::ImageSpec& spec)
 {
     const std::int64_t tile = std::max(spec.tile_height, 1);

@@ -93,11 +93,17 @@ TEST_CASE("a TIFF's tags of huge sizes")
         write_bytes(path, with_tag(strips, tag, 0x7ffffff0));
         refusal(path);
     }
-    // One strip holds all rows, whatever number says so.
-    for (const std::uint32_t rows : { 0x7ffffff0u, 0xffffffffu }) {
+    // One strip holds all rows, whatever number says so; reading comes to an end.
+    const auto sound = load_photo_thumbnail(folder.path("strips.tif"));
+    REQUIRE(sound);
+    for (const std::uint32_t rows : { 0x7ffffff0u, 0x7fffffffu, 0x80000000u, 0xffffffffu }) {
+        CAPTURE(rows);
         write_bytes(path, with_tag(strips, rows_per_strip, rows));
-        const auto file = ImageFile::open(path, {}, "photo");
-        REQUIRE_MESSAGE(file, (file ? "" : file.error().message));
+        const auto thumbnail = load_photo_thumbnail(path);
+        if (thumbnail)
+            CHECK(thumbnail->rgb == sound->rgb);
+        else // OpenImageIO's reader wants room for a whole strip
+            CHECK(thumbnail.error().message.rfind("photo '" + path + "': ", 0) == 0);
     }
     write_bytes(path, with_tag(tiles, tile_length, 0x7ffffff0));
     CHECK(refusal(path) == "photo: has tiles of 16 x 2147483632 x 1 pixels; from 1 to 1048576 a side are possible");
