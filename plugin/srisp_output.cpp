@@ -109,6 +109,7 @@ Status SrispOutput::begin_level(const std::string& name, const OIIO::ImageSpec& 
     m_spec = spec;
     m_spec.set_format(OIIO::TypeFloat);
     m_spec.channelformats.clear();
+    limit_strips(m_spec);
     if (mode != AppendMIPLevel || m_slot->subimages.empty())
         m_slot->subimages.emplace_back();
     m_slot->subimages.back().push_back(

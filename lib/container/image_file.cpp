@@ -214,6 +214,7 @@ bool ImageFile::seek_subimage(int subimage, int miplevel)
         errorfmt("{}: {}", m_where, size.error().message);
         return false;
     }
+    limit_strips(spec);
     if (container.straight_alpha)
         spec.attribute("oiio:UnassociatedAlpha", 1);
     if (container.describe && subimage == 0)
@@ -333,6 +334,10 @@ bool ImageFile::read_native_scanlines(int subimage, int miplevel, int ybegin, in
     if (!seek_subimage(subimage, miplevel))
         return false;
     const int end = std::min(yend, m_spec.y + m_spec.height), rows = end - ybegin;
+    if (ybegin < m_spec.y || rows < 1) {
+        errorfmt("{}: has no rows {} to {}", m_where, ybegin, yend);
+        return false;
+    }
     const bool read = m_inner->read_native_scanlines(subimage, miplevel, ybegin, end, z, data);
     if (!accept(read, ybegin - m_spec.y, data, m_spec.scanline_bytes(true) * static_cast<std::size_t>(rows)))
         return false;

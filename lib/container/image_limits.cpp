@@ -137,6 +137,11 @@ Status check_size(const OIIO::ImageSpec& spec)
     if (std::int64_t(spec.width) * spec.nchannels > kMostRowValues)
         return Error{ "has rows of " + std::to_string(spec.width) + " pixels of " + std::to_string(spec.nchannels) +
                       " channels, which is more than the limit of " + std::to_string(kMostRowValues) + " values" };
+    // The greatest number stands for all rows. By others OpenImageIO's reader takes memory, and goes astray.
+    const int strip = spec.get_int_attribute("tiff:RowsPerStrip", 1);
+    if (strip > kLargestSide || strip < -1)
+        return Error{ "has strips of " + std::to_string(std::uint32_t(strip)) + " rows; the limit is " +
+                      std::to_string(kLargestSide) };
     if (Status windows = check_windows(spec); !windows)
         return windows;
     return check_tiles(spec);
@@ -153,6 +158,14 @@ Status check_claim(const char* reader, std::uint64_t width, std::uint64_t height
     return Error{ "is damaged or truncated: says that it has " + size_text(std::int64_t(width), std::int64_t(height)) +
                   " pixels, but has only " + std::to_string(file_bytes) + " bytes; its format holds at most " +
                   std::to_string(densest) + " pixels in a byte" };
+}
+
+void limit_strips(OIIO::ImageSpec& spec)
+{
+    const char kRows[] = "tiff:RowsPerStrip";
+    const int rows = spec.get_int_attribute(kRows, 1);
+    if (rows < 1 || rows > spec.height)
+        spec.attribute(kRows, spec.height);
 }
 
 int rows_in_tiles(std::int64_t wanted, const OIIO::ImageSpec& spec)

@@ -28,6 +28,10 @@ Status check_size(const OIIO::ImageSpec& spec);
 /// file. Small images are not asked.
 Status check_claim(const char* reader, std::uint64_t width, std::uint64_t height, std::uint64_t file_bytes);
 
+/// OpenImageIO reads so many rows at a time as a TIFF says that a strip has, whatever the number is, in ints: at most
+/// all rows from here on.
+void limit_strips(OIIO::ImageSpec& spec);
+
 /// Rows that are read at a time: `wanted` rounded up to whole tiles, at most the image's.
 int rows_in_tiles(std::int64_t wanted, const OIIO::ImageSpec& spec);
 

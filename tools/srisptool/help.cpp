@@ -47,6 +47,9 @@ Environment:
   SRISP_OIIOTOOL    the oiiotool to run; default: the first on PATH that is not
                     srisptool
   SRISP_MODEL_PATH  folders with models, separated by colons
+  SRISP_MAX_MEGAPIXELS
+                    the most pixels that an image may have, in millions; default
+                    2000
   TMPDIR            where small hand-over files lie while it runs
 
 Exit codes: oiiotool's own; 1 where srisptool itself failed, 2 for wrong usage

@@ -114,6 +114,20 @@ TEST_CASE("a few bytes cannot be a large picture, but flat pictures are small fi
     }
 }
 
+TEST_CASE("a strip has at most all rows")
+{
+    for (const int rows : { INT_MIN, -1, 0, 49, INT_MAX }) {
+        OIIO::ImageSpec spec(64, 48, 3);
+        spec.attribute("tiff:RowsPerStrip", rows);
+        limit_strips(spec);
+        CHECK(spec.get_int_attribute("tiff:RowsPerStrip") == 48);
+    }
+    OIIO::ImageSpec spec(64, 48, 3);
+    spec.attribute("tiff:RowsPerStrip", 7);
+    limit_strips(spec);
+    CHECK(spec.get_int_attribute("tiff:RowsPerStrip") == 7);
+}
+
 TEST_CASE("rows to be read at a time are whole tiles, and no more than there are")
 {
     CHECK(rows_in_tiles(10, tiled(64, 16)) == 16);
