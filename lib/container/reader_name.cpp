@@ -53,7 +53,8 @@ bool is_pnm(const std::string& head)
 /// Whether every file of this reader begins in a way that is known here.
 bool has_magic(const std::string& reader)
 {
-    if (reader == kRawReader || reader == "iff") // old cameras' files, and IFF's compressed relatives, begin with anything
+    if (reader == kRawReader ||
+        reader == "iff") // old cameras' files, and IFF's compressed relatives, begin with anything
         return false;
     return is_told_by_first_bytes(reader) ||
            std::any_of(magics().begin(), magics().end(), [&](const Magic& magic) { return reader == magic.reader; });
@@ -80,7 +81,8 @@ std::string reader_name(const std::string& head, const std::string& path)
 {
     const std::string by_ending = reader_of_ending(path);
     if (const FileType type = file_type(head); type.kind != FileKind::headerless)
-        return type.reader == kTiff && by_ending == kRawReader ? kRawReader : type.reader; // most RAW files are TIFFs, too
+        return type.reader == kTiff && by_ending == kRawReader ? kRawReader
+                                                               : type.reader; // most RAW files are TIFFs, too
     for (const Magic& magic : magics())
         if (head.compare(std::min(magic.offset, head.size()), magic.bytes.size(), magic.bytes) == 0)
             return magic.reader;

@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "jpeg/jpeg_data.h"
-#include "reference/tiff_raw.h"
 #include "raw_file/tiff_tags.h"
+#include "reference/tiff_raw.h"
 
 namespace srisp {
 

@@ -20,8 +20,8 @@ namespace {
 const char kHandOver[] = "-o:datatype=float:bits=0:autocc=0:autotrim=0:dither=0";
 const char kTakeBack[] = "-i:now=1:autocc=0:info=0";
 // Left to itself oiiotool reads pixels when it comes to them, in one of the threads of a loop of its own, while the
-// others wait for it by spinning: that takes the cores away that apply needs.
-const char kReadNow[] = "-i:now=1";
+// others wait for it by spinning: that takes the cores away that apply needs. And what it reads so it keeps to its end.
+const char kReadNow[] = "-i:now=1", kNow[] = ":now=1";
 
 // Takes the place of the user's name where that was printed, and is not printed again.
 const char kReadQuietly[] = ":now=1:autocc=0:info=0";
@@ -206,8 +206,13 @@ private:
             emit(step.words);
             emit({ (step.is_operand() ? "-i" : step.words[0]) + kReadQuietly, word, "--swap", "--pop" });
         } else {
-            emit(step.words);
-            m_result.words.back() = word;
+            std::vector<std::string> words = step.words;
+            words.back() = word;
+            if (!m_dry_run && step.is_operand())
+                words.insert(words.begin(), kReadNow);
+            else if (!m_dry_run && words[0].find(kNow) == std::string::npos)
+                words[0] += kNow;
+            emit(words);
         }
     }
 

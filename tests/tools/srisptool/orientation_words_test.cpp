@@ -46,10 +46,10 @@ TEST_CASE("orientations 5 and 7 are turned by commands that turn them rightly")
     CHECK(turn.front() == "--orientcw");
     CHECK(turn.back() == "--reorient");
     CHECK(rewritten({ "--autoorient", files.photo, "--srisp-process", files.other, "--over" }).words ==
-          joined({ { "/T/1.srisp" }, turn, hand_over("2"), { files.other }, turn, { "--over" } }));
+          joined({ { kReadNow, "/T/1.srisp" }, turn, hand_over("2"), { files.other }, turn, { "--over" } }));
     // A command may wait for the image.
     CHECK(rewritten({ "--autoorient", "--over", files.photo, "--srisp-process" }).words ==
-          joined({ { "--over", "--autoorient", "/T/1.srisp" }, hand_over("2") }));
+          joined({ { "--over", "--autoorient", kReadNow, "/T/1.srisp" }, hand_over("2") }));
     CHECK(rewritten({ "--reorient", files.photo, "--srisp-process" }).words ==
-          joined({ { "--reorient", "/T/1.srisp" }, hand_over("2") }));
+          joined({ { "--reorient", kReadNow, "/T/1.srisp" }, hand_over("2") }));
 }

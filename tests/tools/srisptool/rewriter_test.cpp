@@ -34,14 +34,14 @@ TEST_CASE("-i without modifiers is as good as a plain name")
     const Files files;
     CHECK(rewritten({ "-i", files.photo, "--srisp-process" }).words == joined({ { kReadNow, "/T/1.srisp" } }));
     CHECK(rewritten({ "-i:ch=R,G,B", files.photo, "--srisp-process" }).words ==
-          joined({ { "-i:ch=R,G,B", "/T/1.srisp" }, hand_over("2") }));
+          joined({ { "-i:ch=R,G,B:now=1", "/T/1.srisp" }, hand_over("2") }));
 }
 
 TEST_CASE("an image that was worked on is handed over")
 {
     const Files files;
     const Rewritten result = rewritten({ files.photo, "--resize", "50%", "--srisp-unprocess:hold=1", files.reference });
-    CHECK(result.words == joined({ { "/T/1.srisp", "--resize", "50%" }, hand_over("2") }));
+    CHECK(result.words == joined({ { kReadNow, "/T/1.srisp", "--resize", "50%" }, hand_over("2") }));
     CHECK(result.files[1].name == "2.json");
     CHECK(result.files[1].content == nlohmann::json{ { "format", "srisp-recipe-1" },
                                                      { "direction", "reverse" },
@@ -58,7 +58,7 @@ TEST_CASE("every file that is read before the last of our commands is read throu
     const Files files;
     const Rewritten result = rewritten({ "-v", files.photo, "-i:now=1", files.other, "--over", "--srisp-unprocess",
                                          files.reference, files.photo, "--over", "-o", "x.exr" });
-    CHECK(result.words == joined({ { "-v", "/T/1.srisp", "-i:now=1", "/T/2.srisp", "--over" },
+    CHECK(result.words == joined({ { "-v", kReadNow, "/T/1.srisp", "-i:now=1", "/T/2.srisp", "--over" },
                                    hand_over("3"),
                                    { files.photo, "--over", "-o", "x.exr" } }));
     CHECK(result.files[0].name == "1.srisp");
@@ -74,9 +74,9 @@ TEST_CASE("in a loop a file is read before our command, too, when it stands behi
     const Words words =
         rewritten({ files.photo, "--for", "i", "2", "--srisp-process", files.other, "--endfor", files.photo, "--over" })
             .words;
-    CHECK(words == joined({ { "/T/1.srisp", "--for", "i", "2" },
+    CHECK(words == joined({ { kReadNow, "/T/1.srisp", "--for", "i", "2" },
                             hand_over("2"),
-                            { "/T/3.srisp", "--endfor", files.photo, "--over" } }));
+                            { kReadNow, "/T/3.srisp", "--endfor", files.photo, "--over" } }));
 }
 
 TEST_CASE("what is printed of each image bears the user's name, and the recipe takes its place")
@@ -110,7 +110,7 @@ TEST_CASE("the frame wildcard of a sequence stays in the name that takes its pla
     for (const char* name : { "s.0001.tif", "s.0002.tif", "s.x.tif", "s..tif", "s.0003.tiff" })
         scratch.file(name);
     const Rewritten result = rewritten({ scratch.path("s.#.tif"), "--flip", "--srisp-process" });
-    CHECK(result.words == joined({ { "/T/1.#.srisp", "--flip" }, hand_over("2") }));
+    CHECK(result.words == joined({ { kReadNow, "/T/1.#.srisp", "--flip" }, hand_over("2") }));
     REQUIRE(result.files.size() == 4);
     CHECK(result.files[0].name == "1.json");
     CHECK(result.files[0].content["action"] == "read");
@@ -118,7 +118,7 @@ TEST_CASE("the frame wildcard of a sequence stays in the name that takes its pla
     CHECK(std::set<std::string>{ result.files[1].name, result.files[2].name } ==
           std::set<std::string>{ "1.0001.srisp", "1.0002.srisp" });
     CHECK(result.files[1].content == nlohmann::json{ { "format", "srisp-slot-1" } });
-    CHECK(rewritten({ scratch.path("s.%04d.tif"), "--flip", "--srisp-process" }).words[1] == "/T/1.%04d.srisp");
+    CHECK(rewritten({ scratch.path("s.%04d.tif"), "--flip", "--srisp-process" }).words[2] == "/T/1.%04d.srisp");
 
     const Rewritten range = rewritten({ scratch.path("t.1-9@@.tif"), "--srisp-process" });
     CHECK(range.words == joined({ { kReadNow, "/T/1.1-9@@.srisp" } }));
@@ -183,7 +183,7 @@ TEST_CASE("printing and saving parameters leave the image on the stack")
     const Rewritten result =
         rewritten({ files.photo, "--srisp-params", files.reference, "--srisp-unprocess", files.reference,
                     "--srisp-save-params", files.scratch.path("p.#.json"), "-o", "raw.exr" });
-    CHECK(result.words == joined({ { "/T/1.srisp", kOut, "/T/2.{FRAME_NUMBER}.srisp" },
+    CHECK(result.words == joined({ { kReadNow, "/T/1.srisp", kOut, "/T/2.{FRAME_NUMBER}.srisp" },
                                    hand_over("3"),
                                    { kOut, "/T/4.{FRAME_NUMBER}.srisp", "-o", "raw.exr" } }));
     CHECK(result.files[1].content["action"] == "print");
@@ -195,11 +195,11 @@ TEST_CASE("where evaluation is off it is turned on for the hand-over only")
 {
     const Files files;
     CHECK(rewritten({ "--evaloff", files.photo, "--flip", "--srisp-unprocess", files.reference, "-o", "{x}.exr" })
-              .words == joined({ { "--evaloff", "/T/1.srisp", "--flip", "--evalon" },
+              .words == joined({ { "--evaloff", kReadNow, "/T/1.srisp", "--flip", "--evalon" },
                                  hand_over("2"),
                                  { "--evaloff", "-o", "{x}.exr" } }));
     CHECK(rewritten({ "-evaloff", "-evalon", files.photo, "--flip", "--srisp-process" }).words ==
-          joined({ { "-evaloff", "-evalon", "/T/1.srisp", "--flip" }, hand_over("2") }));
+          joined({ { "-evaloff", "-evalon", kReadNow, "/T/1.srisp", "--flip" }, hand_over("2") }));
 }
 
 TEST_CASE("what changes how images are read forbids to unprocess the file itself")
@@ -217,7 +217,7 @@ TEST_CASE("what changes how images are read forbids to unprocess the file itself
                                                    { "--if", "1" },
                                                    { "--newer-than-2.4" } }) {
         CAPTURE(before[0]);
-        CHECK(words_behind(before) == joined({ before, { "/T/1.srisp" }, hand_over("2") }));
+        CHECK(words_behind(before) == joined({ before, { kReadNow, "/T/1.srisp" }, hand_over("2") }));
     }
     for (const Words& before : std::vector<Words>{ { "--autocc" }, { "--native" }, { "--missingfile", "black" } }) {
         CAPTURE(before[0]);
@@ -263,7 +263,7 @@ TEST_CASE("names of the user never stand in words that srisptool adds")
     CHECK(result.files[0].content["reference"] == reference);
     const Rewritten literal = rewritten(
         { "--wildcardoff", "--evaloff", scratch.file("%V#@{1}=&.jpg"), "--flip", "--srisp-unprocess", reference });
-    CHECK(literal.words == joined({ { "--wildcardoff", "--evaloff", "/T/1.srisp", "--flip", "--evalon" },
+    CHECK(literal.words == joined({ { "--wildcardoff", "--evaloff", kReadNow, "/T/1.srisp", "--flip", "--evalon" },
                                     hand_over("2"),
                                     { "--evaloff" } }));
     CHECK(literal.files[0].content["source"] == scratch.path("%V#@{1}=&.jpg"));
