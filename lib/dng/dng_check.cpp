@@ -12,7 +12,6 @@ namespace srisp {
 namespace {
 
 constexpr int kSmallestSide = 2, kLargestSide = 65535; // the limit is that of LibRaw, dcraw and JPEG
-constexpr int kLargestTile = 65520;                    // the last multiple of 16 below it
 constexpr int kLargestPattern = 64;                    // of black levels; readers' limit
 constexpr float kLargestHalf = 65504;
 
@@ -21,15 +20,11 @@ std::string sides(int width, int height)
     return std::to_string(width) + " x " + std::to_string(height);
 }
 
-Status check_geometry(const DngImage& image, const DngOptions& options)
+Status check_geometry(const DngImage& image)
 {
     const std::string size = sides(image.width, image.height) + " pixels";
     if (std::min(image.width, image.height) < kSmallestSide || std::max(image.width, image.height) > kLargestSide)
         return Error{ "image of " + size + ": from 2 to " + std::to_string(kLargestSide) + " a side are possible" };
-    if (options.layout == DngLayout::cinema && options.compression != DngCompression::none &&
-        std::max(image.width, image.height) > kLargestTile)
-        return Error{ "image of " + size + ": compressed in the layout 'cinema', " + std::to_string(kLargestTile) +
-                      " a side are the limit" };
     if (image.planes != 1 && image.planes != 3)
         return Error{ "image of " + std::to_string(image.planes) +
                       " channels: 1 (a mosaic) or 3 (R, G, B) are possible" };
@@ -137,7 +132,7 @@ std::uint32_t white_level(const DngImage& image, const DngOptions& options, std:
 
 Status check_dng_image(const DngImage& image, const DngOptions& options)
 {
-    if (Status status = check_geometry(image, options); !status)
+    if (Status status = check_geometry(image); !status)
         return status;
     if (Status status = check_storage(image, options); !status)
         return status;

@@ -57,6 +57,18 @@ constexpr std::uint32_t kReduced = 1; // in NewSubFileType
 constexpr std::uint32_t kSrgb = 2;    // in PreviewColorSpace
 constexpr std::uint32_t kPreviewPlanes = 3;
 
+std::uint32_t compression_code(DngCompression compression)
+{
+    switch (compression) {
+    case DngCompression::lossless:
+        return kJpeg;
+    case DngCompression::deflate:
+        return kDeflate;
+    default:
+        return kUncompressed;
+    }
+}
+
 /// Pairs of numbers for all planes at once, or for each of three colours.
 bool is_noise_profile(const std::vector<double>& profile)
 {
@@ -115,14 +127,13 @@ void set_raw_tags(const DngImage& image, const DngOptions& options, const ImageB
     folder.set_longs(kImageWidth, { width });
     folder.set_longs(kImageLength, { height });
     folder.set_shorts(kBitsPerSample, std::vector<std::uint32_t>(planes, std::uint32_t(options.bits)));
-    const bool deflate = options.compression == DngCompression::deflate;
-    folder.set_shorts(kCompression, { !blocks.tiled() ? kUncompressed : deflate ? kDeflate : kJpeg });
+    folder.set_shorts(kCompression, { compression_code(options.compression) });
     folder.set_shorts(kPhotometric, { planes == 1 ? kCfa : kLinearRaw });
     folder.set_shorts(kSamplesPerPixel, { std::uint32_t(planes) });
     folder.set_shorts(kPlanarConfiguration, { 1 });
     if (image.floats)
         folder.set_shorts(kSampleFormat, std::vector<std::uint32_t>(planes, kFloatSamples));
-    if (deflate)
+    if (options.compression == DngCompression::deflate)
         folder.set_shorts(kPredictor, { kFloatPredictor });
     if (blocks.tiled()) {
         folder.set_longs(kTileWidth, { std::uint32_t(blocks.block_width()) });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <srisp/dng.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "base/guarded.h"
@@ -33,6 +34,9 @@ public:
             set_preview_tags(image, 0, m_first);
         }
         set_raw_tags(image, options, m_blocks, raw_folder());
+        if (std::min(image.width, image.height) < kSmallestRead)
+            m_notes.push_back("LibRaw and dcraw do not read RAW images under " + std::to_string(kSmallestRead) +
+                              " pixels a side");
     }
 
     const std::vector<std::string>& notes() const { return m_notes; }
@@ -66,6 +70,7 @@ public:
 
 private:
     static constexpr std::uint32_t kFirstAt = 8; // after the header
+    static constexpr int kSmallestRead = 22;
 
     TiffFolderBytes& raw_folder() { return m_preview ? m_sub : m_first; }
 

@@ -56,19 +56,19 @@ std::string deflated(const std::string& data)
 
 } // namespace
 
-ImageBlocks::ImageBlocks(const DngImage& image, const DngOptions& options) : m_image(image), m_options(options)
+ImageBlocks::ImageBlocks(const DngImage& image, const DngOptions& options)
+    : m_image(image), m_options(options), m_width(image.width), m_height(image.height)
 {
-    if (tiled()) {
-        const bool one = options.layout == DngLayout::cinema;
-        m_width =
-            one ? rounded_up(image.width, kTileMultiple) : std::min(kTile, rounded_up(image.width, kTileMultiple));
-        m_height =
-            one ? rounded_up(image.height, kTileMultiple) : std::min(kTile, rounded_up(image.height, kTileMultiple));
+    if (options.compression != DngCompression::none) {
+        m_tiled = options.layout == DngLayout::standard && std::max(image.width, image.height) > kTile;
+        if (m_tiled) {
+            m_width = std::min(kTile, rounded_up(image.width, kTileMultiple));
+            m_height = std::min(kTile, rounded_up(image.height, kTileMultiple));
+        }
         compress();
         return;
     }
     const std::size_t row = packed_row_bytes(std::size_t(image.width) * std::size_t(image.planes), options.bits);
-    m_width = image.width;
     // Strips of an even number of rows follow each other without gaps: LibRaw reads on where one ends.
     m_height = int(std::min(std::max(kStripBytes / row, std::size_t(1)) * 2, std::size_t(image.height)));
     for (int y = 0; y < image.height; y += m_height)
@@ -78,12 +78,12 @@ ImageBlocks::ImageBlocks(const DngImage& image, const DngOptions& options) : m_i
 void ImageBlocks::compress()
 {
     const int columns = (m_image.width - 1) / m_width + 1, rows = (m_image.height - 1) / m_height + 1;
-    m_tiles.resize(std::size_t(columns) * std::size_t(rows));
-    parallel_tasks(std::int64_t(m_tiles.size()), m_options.threads, [&](std::int64_t i) {
-        m_tiles[std::size_t(i)] = compressed(int(i % columns) * m_width, int(i / columns) * m_height);
+    m_compressed.resize(std::size_t(columns) * std::size_t(rows));
+    parallel_tasks(std::int64_t(m_compressed.size()), m_options.threads, [&](std::int64_t i) {
+        m_compressed[std::size_t(i)] = compressed(int(i % columns) * m_width, int(i / columns) * m_height);
     });
-    for (const std::string& tile : m_tiles)
-        m_sizes.push_back(std::uint32_t(tile.size()));
+    for (const std::string& block : m_compressed)
+        m_sizes.push_back(std::uint32_t(block.size()));
 }
 
 std::string ImageBlocks::compressed(int left, int top) const
@@ -91,9 +91,10 @@ std::string ImageBlocks::compressed(int left, int top) const
     const int planes = m_image.planes;
     if (m_image.shorts) {
         const std::vector<std::uint16_t> tile = tile_samples(m_image, m_image.shorts, left, top, m_width, m_height);
-        // Of a mosaic two neighbours make a pixel of the JPEG.
+        // Of a mosaic two neighbours make a column of the JPEG, where they can.
+        const bool pairs = planes == 1 && m_width % 2 == 0;
         return encode_lossless_jpeg(
-            { tile.data(), planes == 1 ? m_width / 2 : m_width, m_height, planes == 1 ? 2 : planes, m_options.bits });
+            { tile.data(), pairs ? m_width / 2 : m_width, m_height, pairs ? 2 : planes, m_options.bits });
     }
     const std::vector<float> tile = tile_samples(m_image, m_image.floats, left, top, m_width, m_height);
     const std::size_t row_samples = std::size_t(m_width) * std::size_t(planes);
@@ -109,13 +110,13 @@ std::string ImageBlocks::compressed(int left, int top) const
 
 void ImageBlocks::write(OutputFile& file) const
 {
-    for (const std::string& tile : m_tiles) {
-        file.write(tile);
-        file.write("\0", padded(std::uint32_t(tile.size())) - tile.size());
+    for (const std::string& block : m_compressed) {
+        file.write(block);
+        file.write("\0", padded(std::uint32_t(block.size())) - block.size());
     }
     std::string strip;
     const std::size_t row_samples = std::size_t(m_image.width) * std::size_t(m_image.planes);
-    for (int y = 0; !tiled() && file.good() && y < m_image.height; ++y) {
+    for (int y = 0; m_compressed.empty() && file.good() && y < m_image.height; ++y) {
         const std::ptrdiff_t at = y * m_image.row_stride;
         if (m_image.shorts)
             append_packed_row(m_image.shorts + at, row_samples, m_options.bits, strip);

@@ -11,13 +11,15 @@
 
 namespace srisp {
 
-/// The image data of a DNG as strips (uncompressed) or tiles (compressed), one after the other.
+/// The image data of a DNG, one block after the other: strips (uncompressed), tiles (compressed), or one compressed
+/// strip where a tile would hold all, or the layout wants it so: dcraw and LibRaw take a single tile for a strip, which
+/// must be as wide as the image.
 class ImageBlocks {
 public:
     /// Compresses; the image must have passed `check_dng_image`, and outlive this object.
     ImageBlocks(const DngImage& image, const DngOptions& options);
 
-    bool tiled() const { return m_options.compression != DngCompression::none; }
+    bool tiled() const { return m_tiled; }
     int block_width() const { return m_width; }
     int block_height() const { return m_height; }
     /// Bytes of each block, row by row.
@@ -33,9 +35,10 @@ private:
 
     const DngImage& m_image;
     const DngOptions m_options;
-    int m_width, m_height;
+    bool m_tiled = false;
+    int m_width, m_height; ///< of a block
     std::vector<std::uint32_t> m_sizes;
-    std::vector<std::string> m_tiles; ///< compressed; strips are made when they are written
+    std::vector<std::string> m_compressed; ///< uncompressed strips are made when they are written
 };
 
 } // namespace srisp
