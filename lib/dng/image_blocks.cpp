@@ -23,6 +23,14 @@ int rounded_up(int value, int multiple)
     return (value + multiple - 1) / multiple * multiple;
 }
 
+/// Not wider than the image: dcraw would take its width for the tiles'.
+int tile_width(int width)
+{
+    if (width >= kTile)
+        return kTile;
+    return width % kTileMultiple == 0 ? width : rounded_up((width + 1) / 2, kTileMultiple);
+}
+
 /// Copies a tile; beyond the image its last pixels are repeated, a mosaic's last two, so that colours stay in place.
 template<class Sample>
 std::vector<Sample> tile_samples(const DngImage& image, const Sample* samples, int left, int top, int width, int height)
@@ -62,7 +70,7 @@ ImageBlocks::ImageBlocks(const DngImage& image, const DngOptions& options)
     if (options.compression != DngCompression::none) {
         m_tiled = options.layout == DngLayout::standard && std::max(image.width, image.height) > kTile;
         if (m_tiled) {
-            m_width = std::min(kTile, rounded_up(image.width, kTileMultiple));
+            m_width = tile_width(image.width);
             m_height = std::min(kTile, rounded_up(image.height, kTileMultiple));
         }
         compress();

@@ -181,6 +181,16 @@ TEST_CASE("Compressed images are tiled from 512 pixels a side, in the layout 'ci
     CHECK(raw.find(278) == nullptr);
 }
 
+TEST_CASE("Tiles are not wider than the image, so that dcraw finds where they lie")
+{
+    MadeImage made(67, 600, 1), round(64, 600, 1);
+    const WrittenDng dng(made.image), whole(round.image);
+    dng.check(dng.folders()[0], 322, kLong, { 48 });
+    CHECK(dng.folders()[0].find(324)->count == 4);
+    whole.check(whole.folders()[0], 322, kLong, { 64 });
+    CHECK(whole.folders()[0].find(324)->count == 2);
+}
+
 TEST_CASE("The camera: names, matrices with their lights, as-shot neutral, orientation, no analog balance")
 {
     MadeImage made(64, 48, 1);
