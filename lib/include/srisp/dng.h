@@ -53,9 +53,9 @@ struct DngOptions {
 };
 
 /// Writes a DNG; the file is complete or absent, a device or pipe is written to as it is. Gives notes on what was
-/// assumed or left out, one sentence each. The bytes are the same for any number of threads. Errors begin with the
-/// file's name: sizes, levels and phases that cannot be, samples of more bits, NaN and infinity, a compression that
-/// does not go with the samples, what the file system says. [DNG 1.4; CinemaDNG 1.1]
+/// assumed or left out, one sentence each. The bytes are the same for any number of threads. Errors name the file:
+/// sizes, levels and phases that cannot be, samples of more bits, NaN and infinity, a compression that does not go with
+/// the samples, what the file system says. [DNG 1.4; CinemaDNG 1.1]
 SRISP_API Expected<std::vector<std::string>> write_dng(const std::string& path, const DngImage& image,
                                                        const DngOptions& options = {});
 

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "base/matrix3.h"
 #include "lib/dng/made_dng.h"
 #include "skip_unless.h"
 
@@ -25,26 +26,24 @@ template<class Check> void for_each_kind(const Check& check)
     for (const auto& [planes, width] : { std::pair(1, 600), std::pair(1, 67), std::pair(1, 1025), std::pair(3, 600) })
         for (const int bits : { 12, 16 })
             for (const auto compression : { DngCompression::none, DngCompression::lossless })
-                for (const auto layout : { DngLayout::standard, DngLayout::cinema })
-                    for (const bool facts : { true, false }) {
-                        if (!facts && bits == 16)
-                            continue;
-                        CAPTURE(planes);
-                        CAPTURE(width);
-                        CAPTURE(bits);
-                        CAPTURE(int(compression));
-                        CAPTURE(int(layout));
-                        CAPTURE(facts);
-                        MadeImage made(width, 531, planes, bits);
-                        made.with_preview(60, 120);
-                        made.image.facts.orientation = 1;
-                        if (!facts)
-                            made.image.facts = {};
-                        made.image.facts.noise_profile = { 1e-4, 1e-7 };
-                        made.image.description = "a description";
-                        written(folder.path("a.dng"), made.image, { compression, bits, layout, 0 });
-                        check(folder.path("a.dng"), made.image);
-                    }
+                for (const auto layout : { DngLayout::standard, DngLayout::cinema }) {
+                    const bool facts = bits == 16;
+                    CAPTURE(planes);
+                    CAPTURE(width);
+                    CAPTURE(bits);
+                    CAPTURE(int(compression));
+                    CAPTURE(int(layout));
+                    CAPTURE(facts);
+                    MadeImage made(width, 531, planes, bits);
+                    made.with_preview(60, 120);
+                    made.image.facts.orientation = 1;
+                    if (!facts)
+                        made.image.facts = {};
+                    made.image.facts.noise_profile = { 1e-4, 1e-7 };
+                    made.image.description = "a description";
+                    written(folder.path("a.dng"), made.image, { compression, bits, layout, 0 });
+                    check(folder.path("a.dng"), made.image);
+                }
 }
 
 /// The samples of a binary PGM or PPM of 16 bits.
@@ -113,4 +112,31 @@ TEST_CASE("dcraw_emu develops it")
         CHECK(samples.size() == std::size_t(image.width) * std::size_t(image.height) * 3);
         std::filesystem::remove(path + ".ppm");
     });
+}
+
+TEST_CASE("dcraw and dcraw_emu develop a colour to what the camera's matrix and neutral say it is")
+{
+    SKIP_UNLESS(has_program("dcraw"), "dcraw");
+    SKIP_UNLESS(has_program("dcraw_emu"), "dcraw_emu");
+    const ScratchFolder folder;
+    MadeImage made(64, 48, 3);
+    made.image.facts.orientation = 1;
+    const std::array<float, 3> linear{ 0.3f, 0.4f, 0.2f }, neutral = made.image.facts.as_shot_neutral;
+    const Matrix3 camera = row_normalized(product(made.image.facts.color_matrices[1].xyz_to_camera, kSrgbToXyz));
+    made.image.black = { 1000, 1000, 1000 };
+    for (std::size_t i = 0; i < std::size_t(64 * 48 * 3); ++i) {
+        const float* row = camera.data() + i % 3 * 3;
+        const float value = neutral[i % 3] * (row[0] * linear[0] + row[1] * linear[1] + row[2] * linear[2]);
+        made.sample(i) = std::uint16_t(1000 + 64535 * value);
+    }
+    written(folder.path("a.dng"), made.image);
+    for (const auto& [program, suffix] : { std::pair("dcraw", "a.ppm"), std::pair("dcraw_emu", "a.dng.ppm") }) {
+        CAPTURE(std::string(program));
+        CHECK(output_of(std::string("timeout 60 ") + program + " -4 -w -o 1 '" + folder.path("a.dng") + "'") == "");
+        int width = 0, height = 0;
+        const std::vector<std::uint16_t> samples = pnm_samples(folder.path(suffix), width, height);
+        REQUIRE(samples.size() == 64 * 48 * 3);
+        for (std::size_t c = 0; c < 3; ++c)
+            CHECK(samples[(20 * 64 + 30) * 3 + c] / 65535.0f == doctest::Approx(linear[c]).epsilon(0.02));
+    }
 }
