@@ -18,6 +18,19 @@ namespace {
 
 constexpr std::uint16_t kSubFolders = 330, kExifFolder = 34665;
 
+/// Which programs do not read it, or not rightly.
+void note_readers(const DngImage& image, std::vector<std::string>& notes)
+{
+    constexpr int kSmallestRead = 22;
+    if (std::min(image.width, image.height) < kSmallestRead)
+        notes.push_back("LibRaw and dcraw do not read RAW images under " + std::to_string(kSmallestRead) +
+                        " pixels a side");
+    if (image.floats)
+        notes.push_back("dcraw, and LibRaw 0.20 and what uses it, do not read DNGs of floats");
+    if (image.planes == 3 && std::any_of(image.black.begin(), image.black.end(), [](float v) { return v > 0; }))
+        notes.push_back("darktable 4.2 shows images of three channels in wrong colours where black is above 0");
+}
+
 /// The file: its folders, then the preview, then the RAW image. All sizes are known before the first byte is written,
 /// so that a pipe can take it.
 class DngFile {
@@ -34,9 +47,7 @@ public:
             set_preview_tags(image, 0, m_first);
         }
         set_raw_tags(image, options, m_blocks, raw_folder());
-        if (std::min(image.width, image.height) < kSmallestRead)
-            m_notes.push_back("LibRaw and dcraw do not read RAW images under " + std::to_string(kSmallestRead) +
-                              " pixels a side");
+        note_readers(image, m_notes);
     }
 
     const std::vector<std::string>& notes() const { return m_notes; }
@@ -70,7 +81,6 @@ public:
 
 private:
     static constexpr std::uint32_t kFirstAt = 8; // after the header
-    static constexpr int kSmallestRead = 22;
 
     TiffFolderBytes& raw_folder() { return m_preview ? m_sub : m_first; }
 

@@ -209,10 +209,19 @@ TEST_CASE("Real RAW files are read as they were once they are written as DNGs")
     }
 }
 
-TEST_CASE("Images that LibRaw and dcraw do not read are written, and that is noted")
+TEST_CASE("Images that some programs do not read rightly are written, and that is noted")
 {
     const ScratchFolder folder;
-    MadeImage made(40, 21, 1);
-    CHECK(written(folder.path("a.dng"), made.image) ==
+    MadeImage small(40, 21, 1), linear(40, 30, 3), floats(40, 30, 3);
+    CHECK(written(folder.path("a.dng"), small.image) ==
           std::vector<std::string>{ "LibRaw and dcraw do not read RAW images under 22 pixels a side" });
+    linear.image.black = { 0, 0, 1 };
+    CHECK(written(folder.path("a.dng"), linear.image) ==
+          std::vector<std::string>{
+              "darktable 4.2 shows images of three channels in wrong colours where black is above 0" });
+    linear.image.black = { 0, 0, 0 };
+    CHECK(written(folder.path("a.dng"), linear.image).empty());
+    CHECK(
+        written(folder.path("a.dng"), floats.as_floats().image, { DngCompression::none, 32, DngLayout::standard, 0 }) ==
+        std::vector<std::string>{ "dcraw, and LibRaw 0.20 and what uses it, do not read DNGs of floats" });
 }
