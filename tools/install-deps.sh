@@ -10,7 +10,7 @@ packages="
     cmake g++ ninja-build pkg-config
     doctest-dev libcli11-dev libhwy-dev libimath-dev liblcms2-dev libopencolorio-dev libopenexr-dev libopenimageio-dev
     libheif-dev libjpeg-dev libpugixml-dev libraw-dev libtiff-dev libwebp-dev
-    libxxhash-dev nlohmann-json3-dev
+    libxxhash-dev nlohmann-json3-dev zlib1g-dev
     openimageio-tools python3-openimageio python3-numpy fonts-dejavu-core
 "
 test_packages="clang-format-14 dcraw libgl1-mesa-dri libimage-exiftool-perl libraw-bin libheif-examples make man-db mount
