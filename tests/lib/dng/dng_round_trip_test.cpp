@@ -48,6 +48,17 @@ TEST_CASE("Mosaics and LinearRaw are read as written: each size, compression, nu
                     }
 }
 
+TEST_CASE("Widths that dcraw's relatives could take for others are read as written")
+{
+    const ScratchFolder folder;
+    for (const int width : { 31, 32, 33, 48, 63, 64, 96, 512, 513, 544, 1024, 1040 })
+        for (const int height : { 22, 32, 33, 530 })
+            for (const auto layout : { DngLayout::standard, DngLayout::cinema }) {
+                MadeImage made(width, height, 1);
+                check_same(folder, made.image, { DngCompression::lossless, 16, layout, 0 });
+            }
+}
+
 TEST_CASE("All four phases are read as written")
 {
     const ScratchFolder folder;
