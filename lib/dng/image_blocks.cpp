@@ -31,7 +31,7 @@ int tile_width(int width, int most)
     return 2 * tile == width ? tile - kTileMultiple : tile;
 }
 
-/// Two tiles at least: dcraw, LibRaw and RawTherapee misread one alone.
+/// Two tiles at least: dcraw and LibRaw take one alone for a strip as wide as the image.
 int tile_height(int height, int most, bool whole_rows)
 {
     const int tile = std::min(most, rounded_up(height, kTileMultiple));
