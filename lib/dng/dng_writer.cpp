@@ -26,9 +26,10 @@ void note_readers(const DngImage& image, std::vector<std::string>& notes)
         notes.push_back("LibRaw and dcraw do not read RAW images under " + std::to_string(kSmallestRead) +
                         " pixels a side");
     if (image.floats)
-        notes.push_back("dcraw, and LibRaw 0.20 and what uses it, do not read DNGs of floats");
+        notes.push_back("dcraw, LibRaw 0.20 and RawTherapee 5.9 do not read three channels of floats");
     if (image.planes == 3 && std::any_of(image.black.begin(), image.black.end(), [](float v) { return v > 0; }))
-        notes.push_back("darktable 4.2 shows images of three channels in wrong colours where black is above 0");
+        notes.push_back(
+            "darktable 4.2 and RawTherapee 5.9 show three channels in wrong colours where black is above 0");
 }
 
 /// The file: its folders, then the preview, then the RAW image. All sizes are known before the first byte is written,

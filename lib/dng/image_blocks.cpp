@@ -14,8 +14,9 @@ namespace srisp {
 
 namespace {
 
-constexpr int kTile = 512;        // pixels a side
-constexpr int kTileMultiple = 16; // TIFF 6.0, section 15
+constexpr int kTile = 512;          // pixels a side
+constexpr int kTileMultiple = 16;   // TIFF 6.0, section 15
+constexpr int kLargestTile = 65520; // a JPEG's sides have 16 bits
 constexpr std::size_t kStripBytes = std::size_t(1) << 20;
 
 int rounded_up(int value, int multiple)
@@ -23,12 +24,18 @@ int rounded_up(int value, int multiple)
     return (value + multiple - 1) / multiple * multiple;
 }
 
-/// Not wider than the image: dcraw would take its width for the tiles'.
-int tile_width(int width)
+/// Not wider than the image, and not half as wide: dcraw and LibRaw misread such tiles.
+int tile_width(int width, int most)
 {
-    if (width >= kTile)
-        return kTile;
-    return width % kTileMultiple == 0 ? width : rounded_up((width + 1) / 2, kTileMultiple);
+    const int tile = std::min(most, width % kTileMultiple == 0 ? width : rounded_up((width + 1) / 2, kTileMultiple));
+    return 2 * tile == width ? tile - kTileMultiple : tile;
+}
+
+/// Two tiles at least: dcraw and LibRaw take one alone for a strip as wide as the image.
+int tile_height(int height, int most, bool whole_rows)
+{
+    const int tile = std::min(most, rounded_up(height, kTileMultiple));
+    return whole_rows && tile >= height ? rounded_up((height + 1) / 2, kTileMultiple) : tile;
 }
 
 /// Copies a tile; beyond the image its last pixels are repeated, a mosaic's last two, so that colours stay in place.
@@ -68,11 +75,9 @@ ImageBlocks::ImageBlocks(const DngImage& image, const DngOptions& options)
     : m_image(image), m_options(options), m_width(image.width), m_height(image.height)
 {
     if (options.compression != DngCompression::none) {
-        m_tiled = options.layout == DngLayout::standard && std::max(image.width, image.height) > kTile;
-        if (m_tiled) {
-            m_width = tile_width(image.width);
-            m_height = std::min(kTile, rounded_up(image.height, kTileMultiple));
-        }
+        const int most = options.layout == DngLayout::cinema ? kLargestTile : kTile;
+        m_width = tile_width(image.width, most);
+        m_height = tile_height(image.height, most, m_width == image.width);
         compress();
         return;
     }
@@ -99,10 +104,9 @@ std::string ImageBlocks::compressed(int left, int top) const
     const int planes = m_image.planes;
     if (m_image.shorts) {
         const std::vector<std::uint16_t> tile = tile_samples(m_image, m_image.shorts, left, top, m_width, m_height);
-        // Of a mosaic two neighbours make a column of the JPEG, where they can.
-        const bool pairs = planes == 1 && m_width % 2 == 0;
+        // Of a mosaic two neighbours make a column of the JPEG.
         return encode_lossless_jpeg(
-            { tile.data(), pairs ? m_width / 2 : m_width, m_height, pairs ? 2 : planes, m_options.bits });
+            { tile.data(), planes == 1 ? m_width / 2 : m_width, m_height, planes == 1 ? 2 : planes, m_options.bits });
     }
     const std::vector<float> tile = tile_samples(m_image, m_image.floats, left, top, m_width, m_height);
     const std::size_t row_samples = std::size_t(m_width) * std::size_t(planes);

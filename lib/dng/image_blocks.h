@@ -11,15 +11,14 @@
 
 namespace srisp {
 
-/// The image data of a DNG, one block after the other: strips (uncompressed), tiles (compressed), or one compressed
-/// strip where a tile would hold all, or the layout wants it so: dcraw and LibRaw take a single tile for a strip, which
-/// must be as wide as the image.
+/// The image data of a DNG, one block after the other: strips (uncompressed), or tiles (compressed; in the layout
+/// 'cinema' only two of these).
 class ImageBlocks {
 public:
     /// Compresses; the image must have passed `check_dng_image`, and outlive this object.
     ImageBlocks(const DngImage& image, const DngOptions& options);
 
-    bool tiled() const { return m_tiled; }
+    bool tiled() const { return m_options.compression != DngCompression::none; }
     int block_width() const { return m_width; }
     int block_height() const { return m_height; }
     /// Bytes of each block, row by row.
@@ -35,7 +34,6 @@ private:
 
     const DngImage& m_image;
     const DngOptions m_options;
-    bool m_tiled = false;
     int m_width, m_height; ///< of a block
     std::vector<std::uint32_t> m_sizes;
     std::vector<std::string> m_compressed; ///< uncompressed strips are made when they are written

@@ -48,6 +48,17 @@ TEST_CASE("Mosaics and LinearRaw are read as written: each size, compression, nu
                     }
 }
 
+TEST_CASE("Widths that dcraw's relatives could take for others are read as written")
+{
+    const ScratchFolder folder;
+    for (const int width : { 31, 32, 33, 48, 63, 64, 96, 512, 513, 544, 1024, 1040 })
+        for (const int height : { 22, 32, 33, 530 })
+            for (const auto layout : { DngLayout::standard, DngLayout::cinema }) {
+                MadeImage made(width, height, 1);
+                check_same(folder, made.image, { DngCompression::lossless, 16, layout, 0 });
+            }
+}
+
 TEST_CASE("All four phases are read as written")
 {
     const ScratchFolder folder;
@@ -218,10 +229,10 @@ TEST_CASE("Images that some programs do not read rightly are written, and that i
     linear.image.black = { 0, 0, 1 };
     CHECK(written(folder.path("a.dng"), linear.image) ==
           std::vector<std::string>{
-              "darktable 4.2 shows images of three channels in wrong colours where black is above 0" });
+              "darktable 4.2 and RawTherapee 5.9 show three channels in wrong colours where black is above 0" });
     linear.image.black = { 0, 0, 0 };
     CHECK(written(folder.path("a.dng"), linear.image).empty());
     CHECK(
         written(folder.path("a.dng"), floats.as_floats().image, { DngCompression::none, 32, DngLayout::standard, 0 }) ==
-        std::vector<std::string>{ "dcraw, and LibRaw 0.20 and what uses it, do not read DNGs of floats" });
+        std::vector<std::string>{ "dcraw, LibRaw 0.20 and RawTherapee 5.9 do not read three channels of floats" });
 }

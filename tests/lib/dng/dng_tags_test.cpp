@@ -125,10 +125,11 @@ TEST_CASE("The RAW image's folder is complete")
     dng.check(raw, 262, kShort, { 32803 });
     dng.check(raw, 277, kShort, { 1 });
     dng.check(raw, 284, kShort, { 1 });
-    dng.check(raw, 278, kLong, { 35 });
-    CHECK(raw.find(273)->count == 1);
-    CHECK(raw.find(279)->count == 1);
-    for (const std::uint16_t absent : { 322, 323, 324, 325 }) // readers take a single tile for a strip
+    dng.check(raw, 322, kLong, { 48 }); // a multiple of 16
+    dng.check(raw, 323, kLong, { 48 });
+    CHECK(raw.find(324)->count == 2);
+    CHECK(raw.find(325)->count == 2);
+    for (const std::uint16_t absent : { 273, 278, 279 })
         CHECK(raw.find(absent) == nullptr);
     dng.check(raw, 33421, kShort, { 2, 2 });
     dng.check(raw, 33422, kByte, { 1, 2, 0, 1 });
@@ -159,36 +160,35 @@ TEST_CASE("Without a preview, and in the layout 'cinema', the RAW image is in th
         cinema.check(only, 254, kLong, { 0 });
         CHECK(only.find(330) == nullptr);
         CHECK(only.find(50970) == nullptr);
-        CHECK(only.find(279)->count == 1);
+        CHECK((only.find(324) == nullptr) == (compression == DngCompression::none));
+        CHECK((only.find(273) == nullptr) == (compression == DngCompression::lossless));
         for (const std::uint16_t tag : kCameraTags)
             CHECK(only.find(tag) != nullptr);
     }
 }
 
-TEST_CASE("Compressed images are tiled from 512 pixels a side, in the layout 'cinema' never")
+TEST_CASE("Tiles are such as all readers read: never one alone, none wider than the image, none half as wide")
 {
-    MadeImage made(1500, 300, 1);
-    const WrittenDng cinema(made.image, { DngCompression::lossless, 16, DngLayout::cinema, 0 });
-    cinema.check(cinema.folders()[0], 278, kLong, { 300 });
-    CHECK(cinema.folders()[0].find(324) == nullptr);
-    const WrittenDng tiled(made.image);
-    const TiffFolder& raw = tiled.folders()[0];
-    tiled.check(raw, 322, kLong, { 512 });
-    tiled.check(raw, 323, kLong, { 304 }); // a multiple of 16
-    CHECK(raw.find(324)->count == 3);
-    CHECK(raw.find(325)->count == 3);
-    CHECK(raw.find(273) == nullptr);
-    CHECK(raw.find(278) == nullptr);
-}
-
-TEST_CASE("Tiles are not wider than the image, so that dcraw finds where they lie")
-{
-    MadeImage made(67, 600, 1), round(64, 600, 1);
-    const WrittenDng dng(made.image), whole(round.image);
-    dng.check(dng.folders()[0], 322, kLong, { 48 });
-    CHECK(dng.folders()[0].find(324)->count == 4);
-    whole.check(whole.folders()[0], 322, kLong, { 64 });
-    CHECK(whole.folders()[0].find(324)->count == 2);
+    struct Case {
+        int width, height;
+        DngLayout layout;
+        double tile_width, tile_height;
+        std::uint32_t tiles;
+    };
+    for (const Case& one :
+         { Case{ 1500, 300, DngLayout::standard, 512, 304, 3 }, Case{ 1024, 300, DngLayout::standard, 496, 304, 3 },
+           Case{ 67, 600, DngLayout::standard, 48, 512, 4 }, Case{ 64, 48, DngLayout::standard, 64, 32, 2 },
+           Case{ 32, 22, DngLayout::standard, 32, 16, 2 }, Case{ 1500, 300, DngLayout::cinema, 752, 304, 2 },
+           Case{ 1920, 1080, DngLayout::cinema, 1920, 544, 2 } }) {
+        CAPTURE(one.width);
+        MadeImage made(one.width, one.height, 1);
+        const WrittenDng dng(made.image, { DngCompression::lossless, 16, one.layout, 0 });
+        const TiffFolder& raw = dng.folders()[0];
+        dng.check(raw, 322, kLong, { one.tile_width });
+        dng.check(raw, 323, kLong, { one.tile_height });
+        CHECK(raw.find(324)->count == one.tiles);
+        CHECK(raw.find(325)->count == one.tiles);
+    }
 }
 
 TEST_CASE("The camera: names, matrices with their lights, as-shot neutral, orientation, no analog balance")
