@@ -9,10 +9,10 @@ namespace srisp {
 Expected<RegularFile> open_for_parts(const std::string& path)
 {
     auto file = RegularFile::open(path);
-    const std::string reason = !file ? file.error().message : file->size() == 0 ? "is empty" : "";
-    if (reason.empty())
-        return file;
-    return Error{ "'" + path + "' " + (reason.rfind("is ", 0) == 0 ? "" : "cannot be opened: ") + reason };
+    if (!file)
+        return Error{ "'" + path + "' " + (says_what_it_is(file.error()) ? "" : "cannot be opened: ") +
+                      file.error().message };
+    return file->size() == 0 ? Expected<RegularFile>(Error{ "'" + path + "' is empty" }) : std::move(file);
 }
 
 Status read_bytes(const RegularFile& file, void* target, std::size_t offset, std::size_t size)

@@ -8,17 +8,12 @@
 
 namespace srisp {
 
-/// Whether RegularFile says what the thing is, rather than what the system said.
-static bool is_kind(const Error& error)
-{
-    return error.message.rfind("is ", 0) == 0;
-}
-
 Expected<std::string> read_file(const std::string& path, std::uint64_t max_bytes, const std::string& where)
 {
     const auto file = RegularFile::open(path);
     if (!file)
-        return Error{ where + ": " + (is_kind(file.error()) ? "'" + path + "' " : "cannot open '" + path + "': ") +
+        return Error{ where + ": " +
+                      (says_what_it_is(file.error()) ? "'" + path + "' " : "cannot open '" + path + "': ") +
                       file.error().message };
     if (file->size() > max_bytes)
         return Error{ where + ": file has " + std::to_string(file->size()) + " bytes, limit " +

@@ -23,6 +23,11 @@ bool is_url(std::string_view name)
            std::all_of(scheme.begin(), scheme.end(), may_follow);
 }
 
+bool says_what_it_is(const Error& error)
+{
+    return error.message.rfind("is ", 0) == 0;
+}
+
 Expected<RegularFile> RegularFile::open(const std::string& path)
 {
     if (is_url(path))

@@ -15,6 +15,9 @@ bool is_url(std::string_view name);
 constexpr char kIsUrl[] = "is a URL; only files are read", kIsFolder[] = "is a folder, not a file",
                kIsNoRegularFile[] = "is not a regular file";
 
+/// Whether an error of RegularFile::open says what the thing is ("is a folder…"), rather than what the system said.
+bool says_what_it_is(const Error& error);
+
 /// A regular file, open for reading; closes itself. All files that we read ourselves are opened here, so that a FIFO or
 /// a device hangs nothing.
 class RegularFile {

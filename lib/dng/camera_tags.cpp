@@ -6,24 +6,13 @@
 #include <cmath>
 
 #include "base/matrix3.h"
+#include "raw_file/tiff_numbers.h"
 
 namespace srisp {
 
 namespace {
 
-enum : std::uint16_t {
-    kMake = 271,
-    kModel = 272,
-    kOrientation = 274,
-    kExposureTime = 33434,
-    kFNumber = 33437,
-    kIso = 34855,
-    kExifVersion = 36864,
-    kUniqueCameraModel = 50708,
-    kColorMatrix1 = 50721,
-    kAsShotNeutral = 50728,
-    kCalibrationIlluminant1 = 50778
-};
+using namespace tiff_tag;
 constexpr int kD65 = 21; // EXIF LightSource
 
 using ColorMatrix = CameraFacts::ColorMatrix;
@@ -116,8 +105,9 @@ void set_camera_tags(const CameraFacts& facts, TiffFolderBytes& folder, std::vec
         folder.set_signed_rationals(std::uint16_t(kColorMatrix1 + i), { matrix.begin(), matrix.end() });
         folder.set_shorts(std::uint16_t(kCalibrationIlluminant1 + i), { std::uint32_t(matrices[i].illuminant) });
     }
-    const bool second = matrices.back().illuminant == kD65;
-    const std::array<float, 3> neutral = written_neutral(facts, second ? matrices.back() : matrices.front(), notes);
+    CameraFacts written;
+    written.color_matrices = matrices;
+    const std::array<float, 3> neutral = written_neutral(facts, *written.daylight_matrix(), notes);
     folder.set_rationals(kAsShotNeutral, { neutral.begin(), neutral.end() });
 }
 

@@ -6,13 +6,13 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "raw_file/tiff_numbers.h"
 
 namespace srisp {
 
 namespace {
 
-constexpr int kSmallestSide = 2, kLargestSide = 65535; // the limit is that of LibRaw, dcraw and JPEG
-constexpr int kLargestPattern = 64;                    // of black levels; readers' limit
+constexpr int kSmallestSide = 2;
 constexpr float kLargestHalf = 65504;
 
 std::string sides(int width, int height)
@@ -23,8 +23,8 @@ std::string sides(int width, int height)
 Status check_geometry(const DngImage& image)
 {
     const std::string size = sides(image.width, image.height) + " pixels";
-    if (std::min(image.width, image.height) < kSmallestSide || std::max(image.width, image.height) > kLargestSide)
-        return Error{ "image of " + size + ": from 2 to " + std::to_string(kLargestSide) + " a side are possible" };
+    if (std::min(image.width, image.height) < kSmallestSide || std::max(image.width, image.height) > kLargestDngSide)
+        return Error{ "image of " + size + ": from 2 to " + std::to_string(kLargestDngSide) + " a side are possible" };
     if (image.planes != 1 && image.planes != 3)
         return Error{ "image of " + std::to_string(image.planes) +
                       " channels: 1 (a mosaic) or 3 (R, G, B) are possible" };
@@ -59,9 +59,9 @@ Status check_levels(const DngImage& image, const DngOptions& options)
 {
     const std::size_t planes = std::size_t(image.planes);
     if (std::min(image.black_rows, image.black_columns) < 1 ||
-        std::max(image.black_rows, image.black_columns) > kLargestPattern)
+        std::max(image.black_rows, image.black_columns) > kLargestBlackPattern)
         return Error{ "black levels in a pattern of " + sides(image.black_rows, image.black_columns) + ": 1 to " +
-                      std::to_string(kLargestPattern) + " are possible" };
+                      std::to_string(kLargestBlackPattern) + " are possible" };
     const std::size_t needed = std::size_t(image.black_rows) * std::size_t(image.black_columns) * planes;
     if (!image.black.empty() && image.black.size() != needed)
         return Error{ std::to_string(image.black.size()) + " black levels where their pattern needs " +

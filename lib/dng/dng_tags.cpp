@@ -5,53 +5,16 @@
 #include <cmath>
 
 #include "dng/dng_check.h"
+#include "raw_file/tiff_numbers.h"
 
 namespace srisp {
 
 namespace {
 
-// TIFF and DNG tags (DNG specification 1.4, chapter 4).
-enum : std::uint16_t {
-    kNewSubfileType = 254,
-    kImageWidth = 256,
-    kImageLength = 257,
-    kBitsPerSample = 258,
-    kCompression = 259,
-    kPhotometric = 262,
-    kImageDescription = 270,
-    kStripOffsets = 273,
-    kSamplesPerPixel = 277,
-    kRowsPerStrip = 278,
-    kStripByteCounts = 279,
-    kPlanarConfiguration = 284,
-    kSoftware = 305,
-    kPredictor = 317,
-    kTileWidth = 322,
-    kTileLength = 323,
-    kTileOffsets = 324,
-    kTileByteCounts = 325,
-    kSampleFormat = 339,
-    kXmp = 700,
-    kCfaRepeatPatternDim = 33421,
-    kCfaPattern = 33422,
-    kDngVersion = 50706,
-    kDngBackwardVersion = 50707,
-    kCfaPlaneColor = 50710,
-    kCfaLayout = 50711,
-    kBlackLevelRepeatDim = 50713,
-    kBlackLevel = 50714,
-    kWhiteLevel = 50717,
-    kDefaultScale = 50718,
-    kDefaultCropOrigin = 50719,
-    kDefaultCropSize = 50720,
-    kBaselineExposure = 50730,
-    kActiveArea = 50829,
-    kPreviewColorSpace = 50970,
-    kNoiseProfile = 51041
-};
+using namespace tiff_tag;
 
 constexpr std::uint32_t kUncompressed = 1, kJpeg = 7, kDeflate = 8;
-constexpr std::uint32_t kRgb = 2, kCfa = 32803, kLinearRaw = 34892;
+constexpr std::uint32_t kRgb = 2; // in PhotometricInterpretation
 constexpr std::uint32_t kFloatPredictor = 3, kFloatSamples = 3;
 constexpr std::uint32_t kReduced = 1; // in NewSubFileType
 constexpr std::uint32_t kSrgb = 2;    // in PreviewColorSpace
@@ -128,7 +91,7 @@ void set_raw_tags(const DngImage& image, const DngOptions& options, const ImageB
     folder.set_longs(kImageLength, { height });
     folder.set_shorts(kBitsPerSample, std::vector<std::uint32_t>(planes, std::uint32_t(options.bits)));
     folder.set_shorts(kCompression, { compression_code(options.compression) });
-    folder.set_shorts(kPhotometric, { planes == 1 ? kCfa : kLinearRaw });
+    folder.set_shorts(kPhotometric, { std::uint32_t(planes == 1 ? kPhotometricCfa : kPhotometricLinearRaw) });
     folder.set_shorts(kSamplesPerPixel, { std::uint32_t(planes) });
     folder.set_shorts(kPlanarConfiguration, { 1 });
     if (image.floats)

@@ -11,12 +11,13 @@
 #include "dng/dng_tags.h"
 #include "dng/image_blocks.h"
 #include "dng/tiff_folder.h"
+#include "raw_file/tiff_numbers.h"
 
 namespace srisp {
 
 namespace {
 
-constexpr std::uint16_t kSubFolders = 330, kExifFolder = 34665;
+using namespace tiff_tag;
 
 /// Which programs do not read it, or not rightly.
 void note_readers(const DngImage& image, std::vector<std::string>& notes)

@@ -7,17 +7,14 @@
 #include <cstring>
 #include <string>
 
+#include "raw_file/tiff_numbers.h"
 #include "raw_file/tiff_tags.h"
 
 namespace srisp {
 
 namespace {
 
-enum : std::uint16_t {
-    kCfaRepeatPatternDim = 33421,
-    kCfaPattern = 33422,
-    kKodakCfaPattern = 64777 // LibRaw takes it as CFAPattern
-};
+using namespace tiff_tag;
 constexpr std::size_t kEntryBytes = 12; // of a tag: number, type, count, value or offset
 constexpr std::uint32_t kXTransFilters = 36;
 constexpr std::size_t kMostTags = 512; // in a folder; LibRaw's own limit for some of them
@@ -104,9 +101,9 @@ Status check_libraw_traps(const FileBytes& file)
     const TiffTags tags(file.data.get(), file.size);
     if (!tags.problem().empty())
         return Error{ "is damaged, or made to do harm: " + tags.problem() };
-    constexpr std::uint16_t kExif = 34665, kGps = 34853;
     for (const TiffFolder& folder : tags.folders())
-        for (const TiffFolder& one : { folder, tags.linked_folder(folder, kExif), tags.linked_folder(folder, kGps) })
+        for (const TiffFolder& one :
+             { folder, tags.linked_folder(folder, kExifFolder), tags.linked_folder(folder, kGpsFolder) })
             if (Status status = check_folder(one); !status)
                 return status;
     return {};

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "raw_file/tiff_numbers.h"
+
 namespace srisp {
 
 namespace {
@@ -11,7 +13,7 @@ namespace {
 constexpr std::size_t kMostFolders = 64;        // real files have under 20
 constexpr int kMostDepth = 2;                   // DNG nests one level
 constexpr std::uint32_t kMostValues = 1u << 20; // the longest that we read: strip offsets, one per row
-constexpr std::uint16_t kSubFolders = 330, kExifFolder = 34665;
+using namespace tiff_tag;
 
 /// Bytes per value of a TIFF type (1 … 13); 0 for types that do not exist.
 int bytes_of_type(int type)

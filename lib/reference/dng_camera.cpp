@@ -4,27 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raw_file/tiff_numbers.h"
 #include "raw_file/tiff_tags.h"
 
 namespace srisp {
 
 namespace {
 
-enum : std::uint16_t {
-    kMake = 271,
-    kModel = 272,
-    kOrientation = 274,
-    kExposureTime = 33434,
-    kFNumber = 33437,
-    kIso = 34855,
-    kUniqueCameraModel = 50708,
-    kColorMatrix1 = 50721,
-    kCameraCalibration1 = 50723,
-    kAnalogBalance = 50727,
-    kAsShotNeutral = 50728,
-    kCalibrationIlluminant1 = 50778,
-    kNoiseProfile = 51041
-};
+using namespace tiff_tag;
 
 /// Looks a tag up where writers put it: the first folder, the main image's, the Exif folder.
 class CameraTags {

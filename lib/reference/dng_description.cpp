@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "jpeg/jpeg_data.h"
+#include "raw_file/tiff_numbers.h"
 #include "raw_file/tiff_tags.h"
 #include "reference/tiff_raw.h"
 
@@ -13,45 +14,9 @@ namespace srisp {
 
 namespace {
 
-// TIFF and DNG tags (DNG specification 1.4, chapter 4).
-enum : std::uint16_t {
-    kNewSubfileType = 254,
-    kImageWidth = 256,
-    kImageLength = 257,
-    kBitsPerSample = 258,
-    kCompression = 259,
-    kPhotometric = 262,
-    kStripOffsets = 273,
-    kSamplesPerPixel = 277,
-    kRowsPerStrip = 278,
-    kStripByteCounts = 279,
-    kPlanarConfiguration = 284,
-    kTileWidth = 322,
-    kTileLength = 323,
-    kTileOffsets = 324,
-    kTileByteCounts = 325,
-    kSampleFormat = 339,
-    kCfaRepeatPatternDim = 33421,
-    kCfaPattern = 33422,
-    kDngVersion = 50706,
-    kCfaPlaneColor = 50710,
-    kCfaLayout = 50711,
-    kLinearizationTable = 50712,
-    kBlackLevelRepeatDim = 50713,
-    kBlackLevel = 50714,
-    kBlackLevelDeltaH = 50715,
-    kBlackLevelDeltaV = 50716,
-    kWhiteLevel = 50717,
-    kActiveArea = 50829,
-    kOpcodeList1 = 51008,
-    kOpcodeList2 = 51009,
-    kOpcodeList3 = 51022
-};
+using namespace tiff_tag;
 
-constexpr int kPhotometricCfa = 32803, kPhotometricLinearRaw = 34892;
 constexpr int kJpeg = 7, kLossyJpeg = 34892; // compressions
-constexpr int kLargestSide = 65535;          // LibRaw's limit
-constexpr int kLargestPattern = 64;          // of black levels; real ones have 1, 2 or 6
 
 /// One number is equal to itself, whatever it is.
 bool all_equal(const std::vector<double>& values)
@@ -125,8 +90,8 @@ Status DngReader::read_sizes()
     const std::string size = std::to_string(m_dng.stored_width) + " x " + std::to_string(m_dng.stored_height);
     if (std::min(m_dng.stored_width, m_dng.stored_height) < 1)
         return Error{ "DNG of " + size + " pixels: the image area is empty" };
-    if (std::max(m_dng.stored_width, m_dng.stored_height) > kLargestSide)
-        return Error{ "DNG of " + size + " pixels, the limit is " + std::to_string(kLargestSide) + " a side" };
+    if (std::max(m_dng.stored_width, m_dng.stored_height) > kLargestDngSide)
+        return Error{ "DNG of " + size + " pixels, the limit is " + std::to_string(kLargestDngSide) + " a side" };
 
     std::vector<double> area = m_tags.values(image(), kActiveArea); // top, left, bottom, right
     if (area.size() != 4)
@@ -188,9 +153,10 @@ Status DngReader::read_black()
         black.rows = black.columns = 2;
         m_dng.notes.push_back("the DNG states four black levels without a pattern: 2 x 2 was assumed");
     }
-    if (std::min(black.rows, black.columns) < 1 || std::max(black.rows, black.columns) > kLargestPattern)
+    if (std::min(black.rows, black.columns) < 1 || std::max(black.rows, black.columns) > kLargestBlackPattern)
         return Error{ "DNG black level pattern of " + std::to_string(black.rows) + " x " +
-                      std::to_string(black.columns) + ": 1 to " + std::to_string(kLargestPattern) + " are possible" };
+                      std::to_string(black.columns) + ": 1 to " + std::to_string(kLargestBlackPattern) +
+                      " are possible" };
     const std::size_t expected =
         std::size_t(black.rows) * std::size_t(black.columns) * std::size_t(m_dng.layout.channels);
     if (levels.empty() || all_equal(levels)) // equal ones need no pattern; none means 0
@@ -281,9 +247,9 @@ Status DngReader::find_lossy_data(bool tiled, const std::vector<double>& offsets
         tiled ? integer(kTileLength, 0) : std::min(integer(kRowsPerStrip, m_dng.stored_height), m_dng.stored_height);
     const std::string size = std::to_string(data.block_width) + " x " + std::to_string(data.block_height);
     if (std::min(data.block_width, data.block_height) < 1 ||
-        std::max(data.block_width, data.block_height) > kLargestSide)
+        std::max(data.block_width, data.block_height) > kLargestDngSide)
         return Error{ "lossy DNG with tiles or strips of " + size + " pixels: from 1 to " +
-                      std::to_string(kLargestSide) + " a side are possible" };
+                      std::to_string(kLargestDngSide) + " a side are possible" };
     const std::size_t columns = std::size_t((m_dng.stored_width - 1) / data.block_width + 1);
     const std::size_t rows = std::size_t((m_dng.stored_height - 1) / data.block_height + 1);
     if (offsets.size() < columns * rows)

@@ -6,20 +6,14 @@
 
 #include <libraw/libraw_version.h>
 
+#include "raw_file/tiff_numbers.h"
 #include "raw_file/tiff_tags.h"
 
 namespace srisp {
 
 namespace {
 
-enum : std::uint16_t {
-    kCompression = 259,
-    kPhotometric = 262,
-    kMake = 271,
-    kModel = 272,
-    kStripOffsets = 273,
-    kDngVersion = 50706
-};
+using namespace tiff_tag;
 constexpr int kVc5 = 9, kNikon = 34713;
 const char kHighEfficiency[] = "CONTACT_INTOPIX"; // near the start of Nikon's HE and HE* data
 
@@ -33,9 +27,9 @@ std::string image_kind(const TiffTags& tags, const TiffFolder& folder)
 {
     static const int kCameras[] = { 32767, 32769, 32770, 32772, kNikon, 34892, 65000, 65535 };
     switch (integer(tags, folder, kPhotometric)) {
-    case 32803:
+    case kPhotometricCfa:
         return "a mosaic";
-    case 34892:
+    case kPhotometricLinearRaw:
     case 32892: // Sony
         return "a LinearRaw image";
     }

@@ -72,6 +72,14 @@ inline OIIO::ImageSpec open_ours(srisp::plugin::SrispInput& input, const std::st
     return spec;
 }
 
+/// The whole image that our reader gives for a name.
+inline std::vector<float> result_of(const std::string& name, OIIO::ImageSpec& spec, const OIIO::ImageSpec& config = {})
+{
+    srisp::plugin::SrispInput input;
+    spec = open_ours(input, name, config);
+    return read_all(input);
+}
+
 /// Why our reader refuses a name.
 inline std::string refusal_of(const std::string& name, const OIIO::ImageSpec& config = {})
 {

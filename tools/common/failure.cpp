@@ -4,8 +4,9 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <new>
 #include <string>
+
+#include "base/guarded.h"
 
 #include "interrupt.h"
 
@@ -35,11 +36,8 @@ int run_tool(const char* name, const std::function<int()>& body)
     } catch (const Failure& failure) {
         std::fprintf(stderr, "%s: %s\n", name, failure.message.c_str());
         return failure.exit_code;
-    } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "%s: not enough memory\n", name);
-        return kExitFailed;
     } catch (const std::exception& error) {
-        const std::string text = error.what();
+        const std::string text = thrown_text(error);
         std::fprintf(stderr, "%s: %s\n", name, text.substr(0, text.find('\n')).c_str());
         return kExitFailed;
     }

@@ -5,6 +5,7 @@
 
 #include "base/input_file.h"
 #include "base/input_files.h"
+#include "base/json_text.h"
 #include "model/model_files.h"
 #include "recipe/frame_pattern.h"
 #include "recipe/recipe.h"
@@ -18,7 +19,6 @@ namespace srisp::tool {
 
 namespace {
 
-constexpr std::size_t kMostText = 1 << 20;
 const char kDefaultModel[] = "default";
 
 /// The file of a name, or those of a sequence that are on disk.
@@ -43,7 +43,7 @@ void add_model(InputFiles& inputs, const std::string& name)
 /// What merely has the name of a description may be anything, such as saved parameters.
 bool describes_samples(const std::string& path)
 {
-    const auto text = read_text_file(path, kMostText);
+    const auto text = read_text_file(path, kLargestJson);
     return text && text->find("\"width\"") != std::string::npos;
 }
 
@@ -63,7 +63,7 @@ void add_references(InputFiles& inputs, const std::vector<std::string>& items)
 void add_recipe(InputFiles& inputs, const std::string& path)
 {
     inputs.add("recipe", path);
-    const auto text = read_text_file(path, kMostText);
+    const auto text = read_text_file(path, kLargestJson);
     const auto recipe = text ? recipe_from_json(*text, path, false) : text.error();
     if (!recipe)
         return;

@@ -30,6 +30,12 @@ public:
     {
         return number(tag, 2).number(type, 2).number(count, 4).number(value, 4);
     }
+    /// A folder of one tag with one value, and the offset of the next folder.
+    TiffText& folder(std::uint32_t tag_number, std::uint32_t value, std::uint32_t next)
+    {
+        constexpr std::uint32_t kLong = 4;
+        return number(1, 2).tag(tag_number, kLong, 1, value).number(next, 4);
+    }
     TiffText& text(const std::string& bytes)
     {
         m_bytes += bytes;
@@ -86,31 +92,16 @@ TEST_CASE("X-Trans and Bayer patterns pass")
 
 TEST_CASE("Folders in a loop are refused")
 {
+    constexpr std::uint32_t kWidth = 256, kSubFolders = 330;
     // The next folder is the first one; a SubIFD is the folder that it belongs to; two that name each other.
-    CHECK(trap_of(TiffText(false).number(1, 2).tag(256, 3, 1, 1).number(8, 4).bytes()) ==
-          kHarm + "its TIFF's folders of tags form a loop");
-    CHECK(trap_of(TiffText(true).number(1, 2).tag(330, 4, 1, 8).number(0, 4).bytes()) ==
-          kHarm + "its TIFF's folders of tags form a loop");
-    CHECK(trap_of(TiffText(false)
-                      .number(1, 2)
-                      .tag(330, 4, 1, 26)
-                      .number(0, 4)
-                      .number(1, 2)
-                      .tag(330, 4, 1, 8)
-                      .number(0, 4)
-                      .bytes()) == kHarm + "its TIFF's folders of tags form a loop");
+    const std::string loop = kHarm + "its TIFF's folders of tags form a loop";
+    CHECK(trap_of(TiffText(false).folder(kWidth, 1, 8).bytes()) == loop);
+    CHECK(trap_of(TiffText(true).folder(kSubFolders, 8, 0).bytes()) == loop);
+    CHECK(trap_of(TiffText(false).folder(kSubFolders, 26, 0).folder(kSubFolders, 8, 0).bytes()) == loop);
     // Two folders that share a third one do not.
-    CHECK(trap_of(TiffText(false)
-                      .number(1, 2)
-                      .tag(330, 4, 1, 44)
-                      .number(26, 4)
-                      .number(1, 2)
-                      .tag(330, 4, 1, 44)
-                      .number(0, 4)
-                      .number(1, 2)
-                      .tag(256, 3, 1, 1)
-                      .number(0, 4)
-                      .bytes()) == "");
+    CHECK(
+        trap_of(TiffText(false).folder(kSubFolders, 44, 26).folder(kSubFolders, 44, 0).folder(kWidth, 1, 0).bytes()) ==
+        "");
 }
 
 TEST_CASE("Folders without end are refused: in a chain, nested, of too many tags, linked again and again")
@@ -118,7 +109,7 @@ TEST_CASE("Folders without end are refused: in a chain, nested, of too many tags
     TiffText chain(false), nested(false), large(false), again(false);
     for (std::uint32_t i = 0; i < 100; ++i) {
         chain.number(0, 2).number(8 + 6 * (i + 1), 4);
-        nested.number(1, 2).tag(330, 4, 1, 8 + 18 * (i + 1)).number(0, 4);
+        nested.folder(330, 8 + 18 * (i + 1), 0);
     }
     CHECK(trap_of(chain.bytes()) == kHarm + "its TIFF has more than 64 folders of tags");
     CHECK(trap_of(nested.bytes()) == kHarm + "its TIFF has folders of tags nested more than 2 deep");
@@ -133,7 +124,7 @@ TEST_CASE("Folders without end are refused: in a chain, nested, of too many tags
 TEST_CASE("The folders of Olympus's and Panasonic's relatives of TIFF are looked at")
 {
     for (const std::string& number : { std::string("IIRO"), std::string("IIRS"), std::string("IIU\0", 4) }) {
-        std::string bytes = TiffText(false).number(1, 2).tag(256, 3, 1, 1).number(8, 4).bytes();
+        std::string bytes = TiffText(false).folder(256, 1, 8).bytes();
         bytes.replace(0, 4, number);
         CHECK(trap_of(bytes) == kHarm + "its TIFF's folders of tags form a loop");
     }
