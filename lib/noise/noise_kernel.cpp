@@ -100,7 +100,7 @@ void random_words(const NoiseBlock& block, NoiseStream stream, std::uint32_t* ta
     });
 }
 
-/// −2 ln((w + ½) / 2³²), to 31 bits of w. ln: m in [√½, √2), atanh series.
+/// −2 ln(w / 2³²) with the lowest bit of w set. ln: m in [√½, √2), atanh series.
 HWY_INLINE V minus_two_log(VU w)
 {
     const D d;
@@ -128,7 +128,7 @@ HWY_INLINE void box_muller(VU radius_word, VU angle_word, V& z0, V& z1)
     const DU du;
     const V radius = hn::Sqrt(minus_two_log(radius_word));
     const V a = hn::Mul(hn::ConvertTo(d, hn::BitCast(di, hn::ShiftLeft<2>(angle_word))),
-                        hn::Set(d, 3.65735457e-10f)); // π/4 · 2⁻³¹
+                        hn::Set(d, 3.6572952e-10f)); // π/4 · 2⁻³¹
     const V a2 = hn::Mul(a, a);
     V sine = hn::Set(d, 2.75573192e-06f);
     for (const float coefficient : { -1.98412698e-04f, 8.33333333e-03f, -1.66666667e-01f, 1.0f })

@@ -58,7 +58,7 @@ TEST_CASE("normal numbers are Box and Muller's of the words, on every instructio
             normal_numbers(block, normal.data());
             random_words(block, NoiseStream::normal, words.data());
             for (std::size_t i = 0; i < kNoiseBlock; i += 2) {
-                const double radius = std::sqrt(-2 * std::log((words[i] + 0.5) * 0x1p-32));
+                const double radius = std::sqrt(-2 * std::log((words[i] | 1) * 0x1p-32));
                 // The angle: 30 bits within a quadrant around 0°; bit 31 mirrors it to the left, bit 30 about 45°.
                 const double angle = std::int32_t(words[i + 1] << 2) * 3.141592653589793 / 4 * 0x1p-31;
                 double a = std::cos(angle) * (words[i + 1] >> 31 ? -1 : 1), b = std::sin(angle);
