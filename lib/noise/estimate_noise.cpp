@@ -12,62 +12,67 @@ namespace srisp {
 namespace {
 
 constexpr int kBins = 32;               // of the square root of brightness
-constexpr std::size_t kLeastBlocks = 6; // that count in a bin
+constexpr std::size_t kLeastBlocks = 8; // of a bin, that count
 constexpr std::size_t kLeastBins = 4;
 constexpr double kLeastRange = 2.5; // between the means of the brightest and the darkest bin
 
-/// A bin's flat blocks.
+/// Of the variances of blocks of pure noise, over the true one (χ² of kBlockFreedom degrees of freedom): their lowest
+/// tenth ends here; and the mean of those between two limits.
+constexpr double kLowestTenth = 0.763;
+constexpr double kLeastRatio = 0.5, kMostRatio = 1.1, kMeanRatio = 0.906;
+
+/// A bin's blocks.
 struct Point {
     double mean, variance, blocks;
 };
 
-double median_of(std::vector<double> values)
+double quantile_of(std::vector<double> values, double fraction)
 {
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    const auto place = values.begin() + std::ptrdiff_t(double(values.size()) * fraction);
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
 }
 
 /// Whether noise alone may have made the texture that a block shows: noise of the same variance leaves a sixteenth in
-/// the means of 4 × 4, and four times as much in one block of a few thousand. Textures of real things fail, and so do
-/// files whose fine noise a lossy compression has taken away.
+/// the means of 4 × 4, and 2.5 times as much in one block of a hundred. Textures of real things fail, and so do files
+/// whose fine noise a lossy compression has taken away.
 bool may_be_flat(const BlockStatistics& block)
 {
-    constexpr float kMostTexture = 4.0f / 16;
+    constexpr float kMostTexture = 2.5f / 16;
     return block.texture < kMostTexture * block.variance;
 }
 
-/// The flattest quarter of a bin; no blocks where that is too few.
-Point flat_point(std::vector<BlockStatistics> blocks)
+/// What a bin says at first, by the lowest of its variances.
+Point first_point(const std::vector<BlockStatistics>& blocks)
 {
-    blocks.erase(std::partition(blocks.begin(), blocks.end(), may_be_flat), blocks.end());
-    const std::size_t count = blocks.size() / 4;
-    if (count < kLeastBlocks)
-        return {};
-    std::nth_element(blocks.begin(), blocks.begin() + std::ptrdiff_t(count), blocks.end(),
-                     [](const auto& one, const auto& other) { return one.texture < other.texture; });
     double mean = 0;
     std::vector<double> variances;
-    for (std::size_t i = 0; i < count; ++i) {
-        mean += double(blocks[i].mean) / double(count);
-        variances.push_back(blocks[i].variance);
+    for (const BlockStatistics& block : blocks) {
+        mean += double(block.mean) / double(blocks.size());
+        variances.push_back(block.variance);
     }
-    const double median_of_chi = std::pow(1 - 2 / (9 * kBlockFreedom), 3); // [Wilson and Hilferty]
-    return { mean, median_of(std::move(variances)) / median_of_chi, double(count) };
+    return { mean, quantile_of(std::move(variances), 0.1) / kLowestTenth, double(blocks.size()) };
 }
 
-std::vector<Point> flat_points(const std::vector<BlockStatistics>& blocks)
+/// The flattest third of each bin that has enough: the least textured ones that noise alone may have made.
+std::vector<std::vector<BlockStatistics>> flattest_blocks(const std::vector<BlockStatistics>& blocks)
 {
-    std::vector<std::vector<BlockStatistics>> bins(kBins);
-    for (const BlockStatistics& block : blocks) {
-        const double place = std::sqrt(std::clamp(double(block.mean), 0.0, 1.0)) * kBins;
-        bins[std::min(std::size_t(place), std::size_t(kBins - 1))].push_back(block);
+    std::vector<std::vector<BlockStatistics>> bins(kBins), result;
+    for (const BlockStatistics& block : blocks)
+        if (may_be_flat(block)) {
+            const double place = std::sqrt(std::clamp(double(block.mean), 0.0, 1.0)) * kBins;
+            bins[std::min(std::size_t(place), std::size_t(kBins - 1))].push_back(block);
+        }
+    for (auto& bin : bins) {
+        const std::size_t count = bin.size() / 3;
+        if (count < kLeastBlocks)
+            continue;
+        std::nth_element(bin.begin(), bin.begin() + std::ptrdiff_t(count), bin.end(),
+                         [](const auto& one, const auto& other) { return one.texture < other.texture; });
+        bin.resize(count);
+        result.push_back(std::move(bin));
     }
-    std::vector<Point> points;
-    for (auto& bin : bins)
-        if (const Point point = flat_point(std::move(bin)); point.blocks > 0)
-            points.push_back(point);
-    return points;
+    return result;
 }
 
 struct Line {
@@ -104,8 +109,8 @@ Line robust_line(const std::vector<Point>& points)
         std::vector<double> off;
         for (const Point& point : points)
             off.push_back(std::abs(point.variance / line.at(point.mean) - 1) * std::sqrt(point.blocks));
-        const double expected = std::sqrt(3.14 / kBlockFreedom); // of a median of χ²
-        const double scale = std::max(1.5 * median_of(off), expected);
+        const double expected = std::sqrt(6 / kBlockFreedom); // of the lowest tenth of χ²
+        const double scale = std::max(1.5 * quantile_of(off, 0.5), expected);
         for (std::size_t i = 0; i < points.size(); ++i)
             weights[i] = points[i].blocks / std::pow(line.at(points[i].mean), 2) / (1 + std::pow(off[i] / scale, 2));
         line = weighted_line(points, weights);
@@ -113,16 +118,43 @@ Line robust_line(const std::vector<Point>& points)
     return line;
 }
 
+/// Fits the line again and again to all blocks that lie near it. Texture only adds to a variance, so few of those below
+/// the line and just above it have any, however many of the others do.
+Line refined_line(const std::vector<BlockStatistics>& blocks, Line line)
+{
+    constexpr int kRounds = 40;
+    for (int round = 0; round < kRounds && line.shot > 0; ++round) {
+        std::vector<Point> near;
+        std::vector<double> weights;
+        for (const BlockStatistics& block : blocks) {
+            const double expected = line.at(block.mean), ratio = double(block.variance) / expected;
+            if (ratio < kLeastRatio || ratio > kMostRatio)
+                continue;
+            near.push_back({ block.mean, double(block.variance) / kMeanRatio, 1 });
+            weights.push_back(1 / (expected * expected));
+        }
+        if (near.size() < kLeastBlocks)
+            return {};
+        line = weighted_line(near, weights);
+    }
+    return line;
+}
+
 Expected<Line> color_line(const std::vector<BlockStatistics>& blocks)
 {
-    const std::vector<Point> points = flat_points(blocks);
+    std::vector<Point> points;
+    std::vector<BlockStatistics> flat;
+    for (const auto& bin : flattest_blocks(blocks)) {
+        points.push_back(first_point(bin));
+        flat.insert(flat.end(), bin.begin(), bin.end());
+    }
     if (points.size() < kLeastBins)
         return Error{ "too few flat blocks (" + std::to_string(points.size()) + " of " + std::to_string(kBins) +
                       " steps of brightness have enough, " + std::to_string(kLeastBins) + " are needed)" };
     if (points.back().mean < kLeastRange * points.front().mean)
         return Error{ "too small a range of brightness (" + shown_number(points.front().mean) + " to " +
                       shown_number(points.back().mean) + ", a factor of " + shown_number(kLeastRange) + " is needed)" };
-    const Line line = robust_line(points);
+    const Line line = refined_line(flat, robust_line(points));
     if (!(line.shot > 0))
         return Error{ "its variance does not grow with brightness" };
     return line;
