@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/shown_text.h"
 
+#include <cstdio>
+
 namespace srisp {
 
 namespace {
@@ -56,6 +58,13 @@ std::string shown_text(std::string_view text, std::size_t most)
         text.remove_prefix(plain ? bytes : 1);
     }
     return shown;
+}
+
+std::string shown_number(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
 }
 
 std::string valid_utf8(std::string_view text)

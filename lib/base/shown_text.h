@@ -15,6 +15,9 @@ constexpr std::size_t kLongestShown = 120; // bytes
 /// between two characters, with "…" behind it.
 std::string shown_text(std::string_view text, std::size_t most = kLongestShown);
 
+/// A number with up to six digits.
+std::string shown_number(double value);
+
 /// The same text where it is UTF-8; bytes that are none as \xff. For messages on their way out: they hold file names,
 /// which may be any bytes, and hosts such as Python take nothing but UTF-8.
 std::string valid_utf8(std::string_view text);

@@ -3,19 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <type_traits>
+
+#include "base/shown_text.h"
 
 namespace srisp {
 
 namespace {
-
-std::string text_of(double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
-}
 
 float largest(const std::vector<float>& values)
 {
@@ -51,9 +45,16 @@ Status check_levels(const RawPixels& pixels)
     const double highest = double(largest(black.pattern)) + largest(black.by_column) + largest(black.by_row);
     for (int c = 0; c < pixels.channels; ++c)
         if (!(highest < pixels.white[std::size_t(c)]))
-            return Error{ "black level " + text_of(highest) + " is not below white level " +
-                          text_of(pixels.white[std::size_t(c)]) };
+            return Error{ "black level " + shown_number(highest) + " is not below white level " +
+                          shown_number(pixels.white[std::size_t(c)]) };
     return {};
+}
+
+float BlackLevels::at(int row, int column) const
+{
+    const std::size_t place = std::size_t(row % rows * columns + column % columns);
+    return pattern[place] + (by_column.empty() ? 0 : by_column[std::size_t(column)]) +
+           (by_row.empty() ? 0 : by_row[std::size_t(row)]);
 }
 
 RowScaler::RowScaler(const RawPixels& pixels) : m_pixels(pixels)

@@ -33,6 +33,9 @@ struct BlackLevels {
     int rows = 1, columns = 1;
     std::vector<float> pattern;
     std::vector<float> by_column, by_row;
+
+    /// Of one pixel of a mosaic.
+    float at(int row, int column) const;
 };
 
 /// The active area of a decoded sensor image, as stored, before black and white are applied.

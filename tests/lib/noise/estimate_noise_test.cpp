@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "noise/estimate_noise.h"
+
+#include <cmath>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "reference/decoders.h"
+#include "shared_files.h"
+
+using namespace srisp;
+
+namespace {
+
+/// A mosaic that was made: 14 bits over a black level of 512, or floats.
+struct MadeRaw {
+    std::vector<float> values;
+    std::vector<std::uint16_t> shorts;
+    RawPixels pixels;
+
+    /// `scene(x, y)`: in [0,1] without noise.
+    template<class Scene> MadeRaw(int width, int height, const NoiseModel& noise, Scene scene)
+    {
+        constexpr float kBlack = 512, kWhite = 16383;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                values.push_back(float(scene(x, y)));
+        REQUIRE(add_noise({ values.data(), width, height, 1, width }, { BayerPhase::grbg, 0, 0 }, noise, 11));
+        for (const float value : values)
+            shorts.push_back(
+                std::uint16_t(std::lround(std::min(std::max(kBlack + value * (kWhite - kBlack), 0.0f), kWhite))));
+        pixels.shorts = shorts.data();
+        pixels.row_stride = width;
+        pixels.width = width;
+        pixels.height = height;
+        pixels.cfa = { 2, 2, "GRBG" };
+        pixels.black = { 1, 1, { kBlack }, {}, {} };
+        pixels.white = { kWhite, kWhite, kWhite };
+    }
+};
+
+/// Slopes, waves, and on a third of the picture a fine texture much stronger than noise.
+double busy_scene(int x, int y)
+{
+    const double slope = 0.001 + 0.85 * std::pow(double(x) / 2048, 2);
+    const bool rough = (x / 128 + y / 128) % 3 == 0;
+    const double wave = 0.05 * slope * std::sin(0.013 * y);
+    return slope + wave + (rough ? 0.3 * slope * std::sin(1.7 * x) * std::cos(1.3 * y + 0.4 * x) : 0);
+}
+
+std::string refusal(const RawPixels& pixels)
+{
+    const auto noise = estimate_noise(pixels);
+    return noise ? "(it was estimated)" : noise.error().message;
+}
+
+} // namespace
+
+TEST_CASE("noise is estimated from a picture with slopes and texture to within 10 %")
+{
+    for (const auto& [shot, read] : { std::pair{ 2e-4, 1e-6 }, { 1e-3, 2e-5 }, { 5e-3, 2e-4 } }) {
+        const NoiseModel noise{ { shot, 0.9 * shot, 1.2 * shot }, { read, 1.5 * read, 0.8 * read } };
+        const MadeRaw raw(2048, 1536, noise, busy_scene);
+        const auto estimated = estimate_noise(raw.pixels);
+        REQUIRE_MESSAGE(estimated, (estimated ? "" : estimated.error().message));
+        for (std::size_t c = 0; c < 3; ++c) {
+            INFO("shot ", shot, ", read ", read, ", colour ", c);
+            CHECK(estimated->shot[c] == doctest::Approx(noise.shot[c]).epsilon(0.1));
+            CHECK(estimated->read[c] == doctest::Approx(noise.read[c]).epsilon(0.1));
+        }
+    }
+}
+
+TEST_CASE("where half of a picture is textured as finely as noise is, shot noise is estimated to within 10 %")
+{
+    const auto patches = [](int x, int y) {
+        const double level = std::fmod((x / 200 * 37 + y / 150 * 91) * 0.6180339, 1.0);
+        const bool rough = (x / 200 + y / 150) % 2;
+        return 0.002 + 0.8 * level * level + (rough ? 0.1 * level * std::sin(0.9 * x) * std::sin(1.1 * y) : 0);
+    };
+    for (const auto& [shot, read] : { std::pair{ 2e-4, 1e-6 }, { 1e-3, 2e-5 }, { 5e-3, 2e-4 } }) {
+        const NoiseModel noise{ { shot, shot, shot }, { read, read, read } };
+        const auto estimated = estimate_noise(MadeRaw(2048, 1536, noise, patches).pixels);
+        REQUIRE_MESSAGE(estimated, (estimated ? "" : estimated.error().message));
+        for (std::size_t c = 0; c < 3; ++c) {
+            INFO("shot ", shot, ", read ", read, ", colour ", c);
+            CHECK(estimated->shot[c] == doctest::Approx(shot).epsilon(0.1));
+            CHECK(estimated->read[c] == doctest::Approx(read).epsilon(0.3));
+        }
+    }
+}
+
+TEST_CASE("an estimate is the same for any number of threads, and black levels of rows and columns do not count")
+{
+    const NoiseModel noise{ { 1e-3, 1e-3, 1e-3 }, { 2e-5, 2e-5, 2e-5 } };
+    MadeRaw raw(2048, 1024, noise, busy_scene);
+    const auto one = estimate_noise(raw.pixels, 1), three = estimate_noise(raw.pixels, 3);
+    REQUIRE(one);
+    REQUIRE(three);
+    CHECK(one->shot == three->shot);
+    CHECK(one->read == three->read);
+    for (int x = 0; x < 2048; ++x)
+        raw.pixels.black.by_column.push_back(float(x % 7));
+    for (int y = 0; y < 1024; ++y)
+        raw.pixels.black.by_row.push_back(float(y % 5));
+    for (std::size_t i = 0; i < raw.shorts.size(); ++i)
+        raw.shorts[i] = std::uint16_t(raw.shorts[i] + i % 2048 % 7 + i / 2048 % 5);
+    const auto shifted = estimate_noise(raw.pixels);
+    REQUIRE(shifted);
+    for (std::size_t c = 0; c < 3; ++c)
+        CHECK(shifted->shot[c] == doctest::Approx(one->shot[c]).epsilon(0.03));
+}
+
+TEST_CASE("pictures that do not show their noise are refused with the reason")
+{
+    const NoiseModel noise{ { 1e-3, 1e-3, 1e-3 }, { 2e-5, 2e-5, 2e-5 } };
+    CHECK(refusal(MadeRaw(1024, 768, noise, [](int, int) { return 0.2; }).pixels)
+              .find("noise cannot be estimated: R: too few flat blocks (") == 0);
+    CHECK(refusal(MadeRaw(128, 96, noise, busy_scene).pixels).find("noise cannot be estimated: R: too few") == 0);
+    CHECK(refusal(MadeRaw(1024, 768, noise, [](int x, int) { return 0.3 + 0.2 * x / 1024; }).pixels)
+              .find("noise cannot be estimated: R: too small a range of brightness (0.3") == 0);
+    const NoiseModel none{};
+    CHECK(refusal(MadeRaw(1024, 768, none, busy_scene).pixels).find("noise cannot be estimated: R: ") == 0);
+    MadeRaw linear(64, 64, noise, busy_scene);
+    linear.pixels.channels = 3;
+    CHECK(refusal(linear.pixels) ==
+          "noise cannot be estimated from an image of three channels: demosaicing has mixed it");
+}
+
+// The HERO6 compresses its RAW files with loss, which takes noise away: green measures 0.66 of its profile's shot
+// noise, red and blue less.
+TEST_CASE("noise estimated from a camera's file is below the file's own profile, as lossy compression leaves it")
+{
+    SKIP_WITHOUT_SHARED("data/raw/gopro_hero6.dng");
+    const auto file = read_whole_file(shared_file("data/raw/gopro_hero6.dng"));
+    REQUIRE(file);
+    const auto raw = decode_raw(*file);
+    REQUIRE(raw);
+    const auto profile = profile_noise(raw->facts), estimated = estimate_noise(raw->pixels);
+    REQUIRE(profile);
+    REQUIRE(estimated);
+    CHECK(estimated->shot[1] / profile->shot[1] == doctest::Approx(0.66).epsilon(0.1));
+    for (const std::size_t c : { 0, 2 })
+        CHECK(estimated->shot[c] < profile->shot[c]);
+}
+
+TEST_CASE("three colours of a camera with one gain are estimated alike, and a dark frame is refused")
+{
+    SKIP_WITHOUT_SHARED("data/raw/canon_kiss_x4.dng");
+    const auto estimate = [](const std::string& name) {
+        const auto file = read_whole_file(shared_file(name));
+        REQUIRE(file);
+        const auto raw = decode_raw(*file);
+        REQUIRE(raw);
+        return estimate_noise(raw->pixels);
+    };
+    const auto canon = estimate("data/raw/canon_kiss_x4.dng");
+    REQUIRE(canon);
+    for (const std::size_t c : { 0, 2 }) {
+        CHECK(canon->shot[c] == doctest::Approx(canon->shot[1]).epsilon(0.05));
+        CHECK(canon->read[c] == doctest::Approx(canon->read[1]).epsilon(0.2));
+    }
+    const auto dark = estimate("data/raw/google_pixel7_dark.dng");
+    CHECK(dark.error().message.find("noise cannot be estimated: R: too few flat blocks (1 of 32") == 0);
+}
