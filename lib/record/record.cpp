@@ -29,10 +29,14 @@ constexpr Fact<float> kNumbers[] = { { "unprocess:reference_iso", &CameraFacts::
                                      { "unprocess:reference_exposure_time", &CameraFacts::exposure_time_s, true },
                                      { "unprocess:reference_f_number", &CameraFacts::f_number, true },
                                      { "unprocess:reference_white_level", &CameraFacts::white_level, false } };
-const char kBlackLevel[] = "unprocess:reference_black_level";
+const char kReferenceBlackLevel[] = "unprocess:reference_black_level";
 const char kAsShotNeutral[] = "unprocess:reference_as_shot_neutral";
-const char kNoiseProfile[] = "unprocess:reference_noise_profile";
-const char kXyzToCamera[] = "unprocess:xyz_to_camera", kIlluminant[] = "unprocess:xyz_to_camera_illuminant";
+const char kReferenceNoiseProfile[] = "unprocess:reference_noise_profile";
+/// The daylight matrix, and one for another light.
+constexpr struct {
+    const char *matrix, *illuminant;
+} kMatrices[] = { { "unprocess:xyz_to_camera", "unprocess:xyz_to_camera_illuminant" },
+                  { "unprocess:xyz_to_camera2", "unprocess:xyz_to_camera2_illuminant" } };
 
 OIIO::TypeDesc floats(std::size_t count)
 {
@@ -104,18 +108,25 @@ void write_camera(OIIO::ImageSpec& spec, const CameraFacts& facts)
         if (facts.*value > 0)
             spec.attribute(name, facts.*value);
     if (facts.white_level > 0)
-        spec.attribute(kBlackLevel, floats(4), facts.black_level.data());
+        spec.attribute(kReferenceBlackLevel, floats(4), facts.black_level.data());
     if (facts.as_shot_neutral[1] > 0)
         spec.attribute(kAsShotNeutral, floats(3), facts.as_shot_neutral.data());
     if (!facts.noise_profile.empty()) {
         const std::vector<float> noise(facts.noise_profile.begin(), facts.noise_profile.end());
-        spec.attribute(kNoiseProfile, floats(noise.size()), noise.data());
+        spec.attribute(kReferenceNoiseProfile, floats(noise.size()), noise.data());
     }
-    if (const CameraFacts::ColorMatrix* matrix = facts.daylight_matrix()) {
-        spec.attribute(kXyzToCamera, OIIO::TypeMatrix33, matrix->xyz_to_camera.data());
-        if (matrix->illuminant)
-            spec.attribute(kIlluminant, matrix->illuminant);
-    }
+    const CameraFacts::ColorMatrix* const daylight = facts.daylight_matrix();
+    const CameraFacts::ColorMatrix* other = nullptr;
+    for (const CameraFacts::ColorMatrix& matrix : facts.color_matrices)
+        if (&matrix != daylight && !other)
+            other = &matrix;
+    const CameraFacts::ColorMatrix* const matrices[] = { daylight, other };
+    for (std::size_t i = 0; i < std::size(kMatrices); ++i)
+        if (const CameraFacts::ColorMatrix* const matrix = matrices[i]) {
+            spec.attribute(kMatrices[i].matrix, OIIO::TypeMatrix33, matrix->xyz_to_camera.data());
+            if (matrix->illuminant)
+                spec.attribute(kMatrices[i].illuminant, matrix->illuminant);
+        }
 }
 
 CameraFacts recorded_camera(const OIIO::ImageSpec& spec)
@@ -128,11 +139,27 @@ CameraFacts recorded_camera(const OIIO::ImageSpec& spec)
         if (kept)
             facts.*value = spec.get_float_attribute(name);
     spec.getattribute(attribute::kNeutral, floats(3), facts.as_shot_neutral.data());
-    CameraFacts::ColorMatrix matrix;
-    if (spec.getattribute(kXyzToCamera, OIIO::TypeMatrix33, matrix.xyz_to_camera.data())) {
-        matrix.illuminant = spec.get_int_attribute(kIlluminant);
-        facts.color_matrices.push_back(matrix);
+    for (const auto& names : kMatrices) {
+        CameraFacts::ColorMatrix matrix;
+        if (spec.getattribute(names.matrix, OIIO::TypeMatrix33, matrix.xyz_to_camera.data())) {
+            matrix.illuminant = spec.get_int_attribute(names.illuminant);
+            facts.color_matrices.push_back(matrix);
+        }
     }
+    return facts;
+}
+
+CameraFacts recorded_sensor(const OIIO::ImageSpec& spec)
+{
+    CameraFacts facts = recorded_camera(spec);
+    for (const auto& [name, value, kept] : kTexts)
+        facts.*value = spec.get_string_attribute(name);
+    for (const auto& [name, value, kept] : kNumbers)
+        facts.*value = spec.get_float_attribute(name);
+    spec.getattribute(kReferenceBlackLevel, floats(4), facts.black_level.data());
+    if (const OIIO::ParamValue* const noise = spec.find_attribute(kReferenceNoiseProfile))
+        for (int i = 0; i < noise->type().numelements(); ++i)
+            facts.noise_profile.push_back(noise->get_float_indexed(i));
     return facts;
 }
 

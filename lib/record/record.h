@@ -22,8 +22,12 @@ constexpr char kModel[] = "unprocess:model";
 constexpr char kModelHash[] = "unprocess:model_hash";
 constexpr char kReference[] = "unprocess:reference";
 constexpr char kReferenceHash[] = "unprocess:reference_hash";
-constexpr char kNeutral[] = "unprocess:neutral"; ///< camera RGB of what is neutral in the result, G = 1
-constexpr char kNotes[] = "unprocess:notes";     ///< what was ignored or assumed
+constexpr char kNeutral[] = "unprocess:neutral";            ///< camera RGB of what is neutral in the result, G = 1
+constexpr char kNotes[] = "unprocess:notes";                ///< what was ignored or assumed
+constexpr char kCfaPattern[] = "unprocess:cfa_pattern";     ///< of a mosaic, from its first pixel: "RGGB", …
+constexpr char kBlackLevel[] = "unprocess:black_level";     ///< of R, first G, B, second G in its values; absent: 0
+constexpr char kWhiteLevel[] = "unprocess:white_level";     ///< in its values; absent: 1
+constexpr char kNoiseProfile[] = "unprocess:noise_profile"; ///< shot and read noise that was added to R, G, B
 } // namespace attribute
 
 /// The line in a result's ImageDescription.
@@ -47,5 +51,8 @@ void write_camera(OIIO::ImageSpec& spec, const CameraFacts& facts);
 
 /// The camera that a result imitates, as far as it holds for the result's own pixels, too; empty for other images.
 CameraFacts recorded_camera(const OIIO::ImageSpec& spec);
+
+/// The same with the reference's filters, levels and noise, which a file for RAW programs should have, too.
+CameraFacts recorded_sensor(const OIIO::ImageSpec& spec);
 
 } // namespace srisp
