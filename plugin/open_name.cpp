@@ -66,7 +66,7 @@ Status apply_settings(Recipe& recipe, const QueryName& parts, const OIIO::ImageS
     return check_complete(recipe, "'" + parts.file + "'");
 }
 
-Expected<OpenedName> opened(Expected<std::unique_ptr<ResultImage>> result)
+Expected<OpenedName> opened(Expected<std::unique_ptr<ComputedImage>> result)
 {
     if (!result)
         return result.error();
@@ -75,17 +75,19 @@ Expected<OpenedName> opened(Expected<std::unique_ptr<ResultImage>> result)
 
 Expected<OpenedName> open_stub(const QueryName& parts, const std::string& slot_id, const OIIO::ImageSpec& config)
 {
-    if (!process_state().slots.find(slot_id))
+    const auto slot = process_state().slots.find(slot_id);
+    if (!slot)
         return Error{ "'" + parts.file + "': the image that it stood for was in the memory of another process" };
     auto job = read_job(parts.file);
     if (!job)
         return job.error();
+    job->name = with_frame(job->name, slot->frame);
     if (const Status applied = apply_settings(*job, parts, config); !applied)
         return applied.error();
     if (job->gain_map == GainMapUse::apply)
         return Error{ job->name + ": gainmap=apply reads a gain map from the photo's file; no other command may stand "
                                   "between the file's name and --srisp-unprocess" };
-    return opened(ResultImage::open(*job, open_slot_source(slot_id, job->name), config, process_state().results));
+    return opened(open_computed_image(*job, open_slot_source(slot_id, job->name), config, process_state().results));
 }
 
 /// What srisptool lets oiiotool read in place of a photo's frames: `T/1.0007.srisp`, which is not on disk or an empty
@@ -119,7 +121,7 @@ Expected<OpenedName> open_recipe(const Recipe& recipe, const OIIO::ImageSpec& co
     auto source = open_file_source(recipe.source, kind, hints);
     if (!source)
         return source.error();
-    return opened(ResultImage::open(recipe, std::move(*source), config, process_state().results));
+    return opened(open_computed_image(recipe, std::move(*source), config, process_state().results));
 }
 
 } // namespace

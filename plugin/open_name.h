@@ -9,7 +9,7 @@
 #include <srisp/expected.h>
 
 #include "container/image_file.h"
-#include "result/result_image.h"
+#include "result/computed_image.h"
 
 namespace srisp::plugin {
 
@@ -36,7 +36,7 @@ bool is_our_name(const std::string& name);
 
 /// What a name stands for: one of the two.
 struct OpenedName {
-    std::unique_ptr<ResultImage> result;
+    std::unique_ptr<ComputedImage> result;
     std::unique_ptr<ImageFile> file; ///< of a recipe that only reads its source
     bool notes = false;              ///< are to be printed for `file`
 };

@@ -15,6 +15,7 @@
 #include "hand_over.h"
 #include "open_name.h"
 #include "recipe/frame_pattern.h"
+#include "result/result_image.h"
 
 namespace srisp::plugin {
 
@@ -22,17 +23,17 @@ namespace {
 
 /// Prints the parameters that the job would apply to the image in a slot, as one line of JSON on stdout: `{"image":
 /// name, …}`.
-Status print_parameters(const Recipe& job, const std::string& slot_id)
+Status print_parameters(Recipe job, const std::string& slot_id)
 {
+    if (const auto slot = process_state().slots.find(slot_id))
+        job.name = with_frame(job.name, slot->frame);
     auto image = ResultImage::open(job, open_slot_source(slot_id, job.name), {}, process_state().results);
     if (!image)
         return image.error();
     const auto choice = (*image)->choice(0, 0);
     if (!choice)
         return choice.error();
-    const auto slot = process_state().slots.find(slot_id);
-    const std::string image_name = with_frame(job.name, slot ? slot->frame : "");
-    const std::string name = nlohmann::json(image_name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const std::string name = nlohmann::json(job.name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     // to_json gives an object; the name goes in front of its first key.
     const std::string line = "{\"image\": " + name + ", " + to_json((*choice)->parameters, -1).substr(1) + "\n";
     if (std::fputs(line.c_str(), stdout) < 0 || std::fflush(stdout) != 0)

@@ -9,6 +9,7 @@
 #include "color/color_reading.h"
 #include "container/file_description.h"
 #include "photo/color_channels.h"
+#include "record/record.h"
 
 namespace srisp {
 
@@ -150,6 +151,8 @@ Expected<PhotoConverter> PhotoConverter::create(const OIIO::ImageSpec& spec, Inp
         return Error{ where + ": is a deep image; flatten it first" };
     if (spec.depth > 1)
         return Error{ where + ": is a volume of " + std::to_string(spec.depth) + " slices; a photo has one" };
+    if (!recorded_sensor_values(spec).cfa_pattern.empty())
+        return Error{ where + ": is a mosaic, as a sensor gives it; a DNG of it is demosaiced when it is read" };
     auto channels = find_color_channels(spec, where);
     if (!channels)
         return channels.error();

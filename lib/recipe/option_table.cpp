@@ -2,6 +2,7 @@
 #include "recipe/option_table.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 
 #include "base/near_names.h"
@@ -35,6 +36,19 @@ const std::vector<Option>& option_table()
           "keep the first frame's parameters over a sequence, so that nothing flickers" },
         { "seed", kProgram | kQuery | files | kUnprocess | kParams, T::number, &Recipe::seed, {}, "0", "N",
           "for the choice among several references" },
+        { "mosaic", kProgram | kQuery | files, T::choice, &Recipe::mosaic,
+          { "reference", "RGGB", "GRBG", "GBRG", "BGGR" }, "", "", "" },
+        { "phase", kMosaic, T::choice, &Recipe::mosaic, { "reference", "RGGB", "GRBG", "GBRG", "BGGR" },
+          "reference", "PHASE", "the filters over pixel (0, 0), its right neighbour and the two below" },
+        { "levels", kProgram | kQuery | files | kMosaic, T::choice, &Recipe::levels, { "unit", "camera" }, "unit",
+          "KIND", "of a mosaic's values: 0 to 1, or the codes of REF's file, black level included; without it, the codes "
+          "where only integers are written" },
+        { "noise", kProgram | kQuery | files, T::text, &Recipe::noise, {}, "", "", "" },
+        { "profile", kProgram | kQuery | files | kNoise, T::path, &Recipe::profile, {}, "", "FILE",
+          "darktable's noiseprofiles.json, for iso=N; without it, the installed one" },
+        { "noise_seed", kProgram | kQuery | files, T::number, &Recipe::noise_seed, {}, "0", "", "" },
+        { "seed", kNoise, T::number, &Recipe::noise_seed, {}, "0", "N",
+          "with the photo's name it says which noise is added" },
         { "allow_partial", kProgram | kQuery | files, T::flag, &Recipe::allow_partial, {}, "0", "", "" },
         { "isolate", kProgram | kQuery | files, T::flag, &Recipe::isolate, {}, "1", "", "" },
         { "direction", kQuery | files, T::choice, &Recipe::direction, { "reverse", "forward" }, "reverse", "", "" },
@@ -43,7 +57,7 @@ const std::vector<Option>& option_table()
         { "progress", files, T::flag, &Recipe::progress, {}, "0", "", "" },
         { "notes", files, T::flag, &Recipe::notes, {}, "0", "", "" },
         { "command", files, T::text, &Recipe::command, {}, "", "", "" },
-        { "action", files, T::choice, &Recipe::action, { "apply", "print", "save", "read" }, "apply", "", "" },
+        { "action", files, T::choice, &Recipe::action, { "apply", "print", "save", "read", "sensor" }, "apply", "", "" },
         { "file", kJob, T::text, &Recipe::file, {}, "", "", "" },
         { "name", kJob, T::text, &Recipe::name, {}, "", "", "" },
     };
@@ -66,6 +80,14 @@ std::vector<std::string> option_keys(Door door)
         if (option.doors & door)
             keys.push_back(option.key);
     return keys;
+}
+
+const char* job_key(const Option& option)
+{
+    for (const Option& other : option_table())
+        if (other.doors & kJob && other.target == option.target)
+            return other.key;
+    return option.key;
 }
 
 Expected<nlohmann::json> option_value(const Option& option, const std::string& text)
@@ -92,7 +114,11 @@ Expected<nlohmann::json> option_value(const Option& option, const std::string& t
 
 Expected<std::size_t> choice_index(const Option& option, const std::string& name)
 {
-    const auto found = std::find(option.values.begin(), option.values.end(), name);
+    const auto same = [&](const std::string& value) {
+        return std::equal(value.begin(), value.end(), name.begin(), name.end(),
+                          [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
+    };
+    const auto found = std::find_if(option.values.begin(), option.values.end(), same);
     if (found == option.values.end())
         return Error{ std::string("unknown ") + option.key + " '" + shown_text(name) + "'" +
                       near_names(name, option.values) };

@@ -20,7 +20,10 @@ enum Door : unsigned {
     kJob = 8,        ///< what srisptool writes for the plugin
     kUnprocess = 16, ///< modifiers of srisptool's commands
     kProcess = 32,
-    kParams = 64
+    kParams = 64,
+    kMosaic = 128,
+    kNoise = 256,
+    kCommands = kUnprocess | kProcess | kParams | kMosaic | kNoise
 };
 
 /// How an option's value is read.
@@ -38,7 +41,8 @@ enum class OptionType {
 using OptionTarget =
     std::variant<std::string Recipe::*, std::vector<std::string> Recipe::*, std::optional<Parameters> Recipe::*,
                  bool Recipe::*, std::uint64_t Recipe::*, Direction Recipe::*, InputEncoding Recipe::*,
-                 GainMapUse Recipe::*, Precision Recipe::*, Recipe::Action Recipe::*>;
+                 GainMapUse Recipe::*, Precision Recipe::*, std::optional<Mosaic> Recipe::*, Levels Recipe::*,
+                 Recipe::Action Recipe::*>;
 
 /// One option: all that recipes, queries, hints, srisptool and its help know of it.
 struct Option {
@@ -58,11 +62,14 @@ const std::vector<Option>& option_table();
 const Option* find_option(Door door, const std::string& key);
 std::vector<std::string> option_keys(Door door);
 
+/// What an option of a command is called in a job.
+const char* job_key(const Option& option);
+
 /// The value that a text stands for, as it would stand in a recipe. Errors: not of the option's type, or not one of its
 /// values (the near ones listed). Files are not looked at.
 Expected<nlohmann::json> option_value(const Option& option, const std::string& text);
 
-/// Which of the option's values a name is; the error lists the near ones.
+/// Which of the option's values a name is, in upper or lower case; the error lists the near ones.
 Expected<std::size_t> choice_index(const Option& option, const std::string& name);
 
 } // namespace srisp

@@ -138,6 +138,15 @@ Status take(Choice& target, const Option& option, const json& value, const Place
     return {};
 }
 
+Status take(std::optional<Mosaic>& target, const Option& option, const json& value, const Place& place)
+{
+    Mosaic mosaic{};
+    const Status taken = take(mosaic, option, value, place);
+    if (taken)
+        target = mosaic;
+    return taken;
+}
+
 Status set_value(Recipe& recipe, const Option& option, const json& value, const Place& place)
 {
     return std::visit([&](auto member) { return take(recipe.*member, option, value, place); }, option.target);
@@ -192,8 +201,8 @@ Expected<Recipe> recipe_from_json(const std::string& text, const std::string& pa
     }
     if (const Status format = check_format(object); !format)
         return Error{ where + ": " + format.error().message };
-    if (!is_job && recipe.action != Recipe::Action::apply && recipe.action != Recipe::Action::read)
-        return Error{ where + ": 'action': a recipe can apply or read" };
+    if (!is_job && (recipe.action == Recipe::Action::print || recipe.action == Recipe::Action::save))
+        return Error{ where + ": 'action': a recipe can apply, read or sensor" };
     if (!is_job && recipe.source.empty())
         return Error{ where + ": has no 'source'" };
     return recipe;
@@ -220,9 +229,13 @@ Status check_complete(const Recipe& recipe, const std::string& where)
 {
     if (recipe.action == Recipe::Action::save && recipe.file.empty())
         return Error{ where + ": has no 'file' to save parameters to" };
-    const bool selects = recipe.direction == Direction::reverse && recipe.action != Recipe::Action::save &&
-                         recipe.action != Recipe::Action::read;
-    if (selects && recipe.references.empty() && !recipe.parameters)
+    const bool selects = recipe.action == Recipe::Action::apply || recipe.action == Recipe::Action::print;
+    const bool senses = recipe.mosaic || !recipe.noise.empty();
+    if (recipe.direction == Direction::forward && senses)
+        return Error{ where + ": mosaic and noise are for RAW-like images, not for processed ones" };
+    if (recipe.action == Recipe::Action::sensor && !senses)
+        return Error{ where + ": names neither mosaic nor noise" };
+    if (selects && recipe.direction == Direction::reverse && recipe.references.empty() && !recipe.parameters)
         return Error{ where + ": names no reference (a RAW file) and no parameters" };
     return {};
 }

@@ -16,7 +16,8 @@ struct Recipe : Options {
         apply,
         print, ///< the parameters that would be applied
         save,  ///< the parameters recorded in the image
-        read   ///< gives the source as it is, its description put right
+        read,  ///< gives the source as it is, its description put right
+        sensor ///< only mosaic and noise: the source is RAW-like already
     };
 
     std::string source; ///< path of the photo; empty in a job whose pixels come by hand-over; a frame pattern in

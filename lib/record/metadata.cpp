@@ -74,27 +74,12 @@ void set_adopted_neutral(OIIO::ImageSpec& spec, const Matrix3& xyz_to_camera, co
         spec.attribute("adoptedNeutral", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::VEC2), xy);
 }
 
-/// The record in an image; ImageDescription is what most formats keep.
-std::optional<RecordLine> read_record(const OIIO::ImageSpec& spec)
-{
-    const auto record = find_record(spec.get_string_attribute(attribute::kRecord));
-    return record ? record : find_record(spec.get_string_attribute("ImageDescription"));
-}
-
 /// The source's own words; where the source is a result itself, those of its source.
 std::string own_description(const OIIO::ImageSpec& spec)
 {
     const std::string text = spec.get_string_attribute("ImageDescription");
     const auto record = find_record(text);
     return record ? record->description : text;
-}
-
-void write_record(OIIO::ImageSpec& spec, const RecordLine& record)
-{
-    const std::string line = format_record(record);
-    spec.attribute("ImageDescription", line);
-    // Captions get edited; EXR keeps this one as well.
-    set(spec, attribute::kRecord, line);
 }
 
 } // namespace
@@ -111,7 +96,7 @@ void mark_result(OIIO::ImageSpec& spec, Direction direction)
     if (reverse)
         set(spec, attribute::kColorSpace, kCameraColorSpace);
     set(spec, attribute::kSynthetic, synthetic_mark(direction));
-    write_record(spec, { direction, "", description });
+    write_record(spec, { direction, "", description, "" });
 }
 
 void record_result(OIIO::ImageSpec& spec, const Parameters& parameters, const CameraFacts* camera, Direction direction)
@@ -131,7 +116,7 @@ void record_result(OIIO::ImageSpec& spec, const Parameters& parameters, const Ca
                 set_adopted_neutral(spec, matrix->xyz_to_camera, neutral);
         }
     }
-    write_record(spec, { direction, to_json(parameters, -1), own_description(spec) });
+    write_record(spec, { direction, to_json(parameters, -1), own_description(spec), "" });
 }
 
 Expected<Parameters> recorded_parameters(const OIIO::ImageSpec& spec, const std::string& where)

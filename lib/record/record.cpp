@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include <OpenImageIO/strutil.h>
+
 #include "base/json_text.h"
 
 namespace srisp {
@@ -12,6 +14,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
+const char kHistory[] = "Exif:ImageHistory";
 const char kStart[] = "{\"srisp\":";
 constexpr std::size_t kLargestLine = std::size_t(64) << 20; // bytes; descriptions of microscopes have some MB
 
@@ -77,6 +80,9 @@ std::string format_record(const RecordLine& record)
     if (!record.parameters.empty())
         if (auto parameters = parse_json<ordered_json>(record.parameters))
             line["parameters"] = std::move(*parameters);
+    if (!record.sensor.empty())
+        if (auto sensor = parse_json<ordered_json>(record.sensor))
+            line["sensor"] = std::move(*sensor);
     if (!record.description.empty())
         line["description"] = record.description;
     return line.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
@@ -96,7 +102,29 @@ std::optional<RecordLine> find_record(const std::string& text)
         return found != line.end() && found->is_string() ? found->get<std::string>() : std::string();
     };
     return RecordLine{ text_of("direction") == "forward" ? Direction::forward : Direction::reverse,
-                       line.contains("parameters") ? line["parameters"].dump() : "", text_of("description") };
+                       line.contains("parameters") ? line["parameters"].dump() : "", text_of("description"),
+                       line.contains("sensor") ? line["sensor"].dump() : "" };
+}
+
+std::optional<RecordLine> read_record(const OIIO::ImageSpec& spec)
+{
+    const auto record = find_record(spec.get_string_attribute(attribute::kRecord));
+    return record ? record : find_record(spec.get_string_attribute("ImageDescription"));
+}
+
+void write_record(OIIO::ImageSpec& spec, const RecordLine& record)
+{
+    const std::string line = format_record(record);
+    spec.attribute("ImageDescription", line);
+    // Captions get edited; EXR keeps this one as well.
+    spec.attribute(attribute::kRecord, line);
+}
+
+void append_history(OIIO::ImageSpec& spec, const std::string& command)
+{
+    const std::string history = spec.get_string_attribute(kHistory);
+    if (!command.empty() && !OIIO::Strutil::ends_with(history, command))
+        spec.attribute(kHistory, history + (history.empty() ? "" : "\n") + command);
 }
 
 void write_camera(OIIO::ImageSpec& spec, const CameraFacts& facts)
@@ -158,8 +186,8 @@ CameraFacts recorded_sensor(const OIIO::ImageSpec& spec)
         facts.*value = spec.get_float_attribute(name);
     spec.getattribute(kReferenceBlackLevel, floats(4), facts.black_level.data());
     if (const OIIO::ParamValue* const noise = spec.find_attribute(kReferenceNoiseProfile))
-        for (int i = 0; i < noise->type().numelements(); ++i)
-            facts.noise_profile.push_back(noise->get_float_indexed(i));
+        for (std::size_t i = 0; i < noise->type().numelements(); ++i)
+            facts.noise_profile.push_back(noise->get_float_indexed(int(i)));
     return facts;
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <OpenImageIO/imageio.h>
 #include <srisp/camera.h>
@@ -24,7 +26,7 @@ constexpr char kReference[] = "unprocess:reference";
 constexpr char kReferenceHash[] = "unprocess:reference_hash";
 constexpr char kNeutral[] = "unprocess:neutral";            ///< camera RGB of what is neutral in the result, G = 1
 constexpr char kNotes[] = "unprocess:notes";                ///< what was ignored or assumed
-constexpr char kCfaPattern[] = "unprocess:cfa_pattern";     ///< of a mosaic, from its first pixel: "RGGB", …
+constexpr char kCfaPattern[] = "unprocess:cfa_pattern";     ///< of a mosaic, from pixel (0, 0) on: "RGGB", …
 constexpr char kBlackLevel[] = "unprocess:black_level";     ///< of R, first G, B, second G in its values; absent: 0
 constexpr char kWhiteLevel[] = "unprocess:white_level";     ///< in its values; absent: 1
 constexpr char kNoiseProfile[] = "unprocess:noise_profile"; ///< shot and read noise that was added to R, G, B
@@ -35,7 +37,28 @@ struct RecordLine {
     Direction direction = Direction::reverse;
     std::string parameters;  ///< JSON object as srisp::to_json writes; empty: not known yet
     std::string description; ///< the source's own ImageDescription
+    std::string sensor;      ///< JSON object of SensorValues; empty: there are none
 };
+
+/// How the values of a result follow a sensor: as attributes, and in the line, which TIFF and PNG keep, too.
+struct SensorValues {
+    /// Of a mosaic: the filters over pixel (0, 0), its right neighbour and the two below, "RGGB", …; else empty. The
+    /// data window may begin elsewhere, so that a crop keeps the phase.
+    std::string cfa_pattern;
+    std::array<float, 4> black_level{}; ///< R, first G, B, second G
+    float white_level = 1;
+    std::vector<double> noise_profile; ///< shot and read noise that was added to R, G, B; empty: none
+
+    bool has_levels() const { return black_level != std::array<float, 4>{} || white_level != 1; }
+};
+
+/// Takes the place of what an image says of it so far; the rest of its record stays.
+void record_sensor_values(OIIO::ImageSpec& spec, const SensorValues& values);
+/// An image of more than one channel has no filters and levels.
+SensorValues recorded_sensor_values(const OIIO::ImageSpec& spec);
+
+/// Adds a command to the image's history, once: a command line may hold several of our commands.
+void append_history(OIIO::ImageSpec& spec, const std::string& command);
 
 /// The plain mark that an image is synthetic.
 const char* synthetic_mark(Direction direction);
@@ -45,6 +68,10 @@ std::string format_record(const RecordLine& record);
 
 /// Finds such a line in a text that may hold more (programs append checksums). None: there is none, or it is damaged.
 std::optional<RecordLine> find_record(const std::string& text);
+
+/// The record in an image; ImageDescription is what most formats keep.
+std::optional<RecordLine> read_record(const OIIO::ImageSpec& spec);
+void write_record(OIIO::ImageSpec& spec, const RecordLine& record);
 
 /// Writes the known facts of the reference's camera.
 void write_camera(OIIO::ImageSpec& spec, const CameraFacts& facts);

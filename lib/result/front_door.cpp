@@ -10,7 +10,8 @@
 #include "base/png_orientation.h"
 #include "photo/pixel_source.h"
 #include "recipe/recipe.h"
-#include "result/result_image.h"
+#include "result/computed_image.h"
+#include "result/kept_results.h"
 
 namespace srisp {
 
@@ -52,7 +53,7 @@ Expected<Image> result_of(const Recipe& recipe, Expected<std::unique_ptr<PixelSo
         return source.error();
     if (const Status complete = check_complete(recipe, (*source)->name()); !complete)
         return complete.error();
-    const auto result = ResultImage::open(recipe, std::move(*source), {}, kept);
+    const auto result = open_computed_image(recipe, std::move(*source), {}, kept);
     if (!result)
         return result.error();
     constexpr int kAllThreads = 0;

@@ -9,6 +9,7 @@
 
 #include <srisp/expected.h>
 #include <srisp/model.h>
+#include <srisp/noise.h>
 #include <srisp/parameters.h>
 
 #include "base/recently_kept.h"
@@ -33,6 +34,7 @@ public:
     void print_notes(const std::string& image, const std::vector<std::string>& notes);
 
     RecentlyKept<std::shared_ptr<const Choice>> choices{ 64 };
+    RecentlyKept<std::shared_ptr<const NoiseModel>> noises{ 64 };
     /// By recipe and subimage: the first choice of a recipe that says `hold`.
     RecentlyKept<std::shared_ptr<const Choice>> held_choices{ 1 << 20 };
 

@@ -81,10 +81,7 @@ void ResultImage::record(Level& level, const Choice& choice) const
     notes.insert(notes.end(), choice.notes.begin(), choice.notes.end());
     if (!notes.empty())
         level.result.attribute(attribute::kNotes, OIIO::Strutil::join(notes, "; "));
-    const std::string history = level.result.get_string_attribute("Exif:ImageHistory");
-    // One command line may hold several of our commands.
-    if (!m_recipe.command.empty() && !OIIO::Strutil::ends_with(history, m_recipe.command))
-        level.result.attribute("Exif:ImageHistory", history + (history.empty() ? "" : "\n") + m_recipe.command);
+    append_history(level.result, m_recipe.command);
     level.recorded = true;
 }
 

@@ -10,31 +10,25 @@
 
 #include "result/band_reader.h"
 #include "result/chooser.h"
+#include "result/computed_image.h"
 
 namespace srisp {
 
-/// The image that a recipe stands for: specs and pixels of its subimages and MIP levels, computed when they are asked
-/// for. Not for use by several threads at a time.
-class ResultImage {
+/// What the method makes of a photo, or of a RAW-like image. Parameters are selected late (is_lazy) or with the spec.
+class ResultImage final : public ComputedImage {
 public:
     /// `kept` outlives the object. Reads headers only; finds what can be wrong without decoding the photo or the
     /// reference.
     static Expected<std::unique_ptr<ResultImage>> open(const Recipe& recipe, std::unique_ptr<PixelSource> source,
                                                        const OIIO::ImageSpec& config, KeptResults& kept);
 
-    /// Whether parameters are to be selected as late as possible.
-    bool is_lazy() const { return m_recipe.lazy; }
-
-    /// The spec without decoding anything: all but the parameters where these must be selected first. Null: there is no
-    /// such level.
-    Expected<const OIIO::ImageSpec*> header(int subimage, int miplevel);
-
-    /// The whole spec, parameters included. Decodes the photo if they must be selected (once per process and photo).
-    Expected<const OIIO::ImageSpec*> full_spec(int subimage, int miplevel, int threads);
-
-    /// Columns x0 ≤ x < x1 of rows y0 ≤ y < y1 relative to the data window, all channels; `row_stride` in floats.
+    bool is_lazy() const override { return m_recipe.lazy; }
+    /// All but the parameters where these must be selected first.
+    Expected<const OIIO::ImageSpec*> header(int subimage, int miplevel) override;
+    /// Decodes the photo if parameters must be selected (once per process and photo).
+    Expected<const OIIO::ImageSpec*> full_spec(int subimage, int miplevel, int threads) override;
     Status read(int subimage, int miplevel, int threads, int x0, int x1, int y0, int y1, float* out,
-                std::size_t row_stride);
+                std::size_t row_stride) override;
 
     /// The parameters of one subimage.
     Expected<ChoicePtr> choice(int subimage, int threads);

@@ -3,7 +3,10 @@
 #include <cmath>
 #include <limits>
 
+#include <srisp/apply.h>
 #include <srisp/metadata.h>
+#include <srisp/model.h>
+#include <srisp/reference.h>
 #include <srisp/select.h>
 #include <srisp/thumbnail.h>
 

@@ -134,6 +134,10 @@ const std::vector<SrispCommand>& srisp_commands()
           "Turn the photo on top of the stack into the linear image that the camera of REF would have recorded" },
         { "srisp-process", nullptr, kProcess, Effect::replaces, "forward", "apply",
           "Turn a RAW-like image into a photo again, by the parameters recorded in it" },
+        { "srisp-mosaic", nullptr, kMosaic, Effect::replaces, "reverse", "sensor",
+          "Leave of each pixel of a RAW-like image the colour that the filter over it lets through, as a sensor does" },
+        { "srisp-noise", "SOURCE", kNoise, Effect::replaces, "reverse", "sensor",
+          "Add a sensor's noise to a RAW-like image or a mosaic" },
         { "srisp-params", "REF", kParams, Effect::reports, "reverse", "print",
           "Print the parameters that --srisp-unprocess would choose, as JSON on stdout, one line per image; the image "
           "stays as it is" },

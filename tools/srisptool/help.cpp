@@ -26,6 +26,11 @@ stands for one of its files, chosen by seed= and the photo's name. With params=
 it may be "-". Names of references, parameters and models are taken literally:
 # and {} are no wildcards and expressions there.
 
+SOURCE says where the figures of the noise come from: "reference" (what REF says
+of its noise, else the noise in REF's own pixels), "iso=800" (darktable's table
+of cameras), "shot=0.01,read=0.0001" (variance = shot x value + read; three
+figures each for R, G, B), or "upi" (drawn at random as Brooks et al. 2019 do).
+
 Options of these commands follow the command, as in oiiotool:
 
 )";
@@ -36,9 +41,14 @@ A value that holds a colon is quoted: '--srisp-unprocess:params="at 12:30.json"'
 RAW-like images need more than 8 bits. Where no -d is given and the format
 cannot hold float (PNG), 16 bits are written.
 
+-o of a DNG takes layout=standard or cinema, compression=lossless, none or
+deflate, bits=10 to 16, and datatype=half or float.
+
 Examples:
   srisptool photo.jpg --srisp-unprocess ref.dng -o raw.exr
   srisptool raw.exr --srisp-process -o photo_again.png
+  srisptool photo.jpg --srisp-unprocess ref.dng --srisp-mosaic \
+            --srisp-noise reference -o photo.dng
   srisptool photo.jpg --srisp-params ref.dng > look.json
   srisptool photo.jpg --srisp-unprocess:params=look.json - -o raw.exr
   srisptool --frames 1-240 s.#.jpg --srisp-unprocess:hold=1 ref.dng -o raw.#.exr
@@ -107,7 +117,7 @@ std::string help_text()
         text += command_entry(command);
     text += kReferences;
     for (const Option& option : option_table())
-        if (option.doors & (kUnprocess | kProcess | kParams))
+        if (option.doors & kCommands)
             text += option_entry(option);
     return text + kTail;
 }

@@ -7,6 +7,7 @@
 #include "base/regular_file.h"
 #include "model/model_files.h"
 #include "recipe/frame_pattern.h"
+#include "recipe/noise_source.h"
 #include "recipe/option_table.h"
 #include "recipe/reference_pattern.h"
 
@@ -91,15 +92,34 @@ void set_modifier(nlohmann::json& job, const SrispCommand& command, const Modifi
     if (!option)
         fail_usage("'" + word + "': unknown modifier '" + modifier.first + "'" +
                    near_names(modifier.first, option_keys(command.door)));
+    nlohmann::json& value = job[job_key(*option)];
     if (option->type == OptionType::model) {
-        job[option->key] = existing_model(name, modifier.second);
+        value = existing_model(name, modifier.second);
     } else if (option->type == OptionType::parameters) {
-        job["parameters"] = existing_file(name, "parameter file", modifier.second);
+        value = existing_file(name, "parameter file", modifier.second);
+    } else if (option->type == OptionType::path) {
+        value = existing_file(name, option->key, modifier.second);
     } else {
-        auto value = option_value(*option, modifier.second);
-        if (!value)
-            fail_usage(name + ": " + value.error().message);
-        job[option->key] = std::move(*value);
+        auto read = option_value(*option, modifier.second);
+        if (!read)
+            fail_usage(name + ": " + read.error().message);
+        value = std::move(*read);
+    }
+}
+
+/// What a command says beside its modifiers.
+void set_argument(nlohmann::json& job, const SrispCommand& command, const std::string& name, const std::string& text)
+{
+    if (command.action == std::string("save")) {
+        job["file"] = frame_pattern_of_file(output_path(name, text));
+    } else if (command.door == kNoise) {
+        if (const auto source = parse_noise_source(text); !source)
+            fail_usage(name + ": " + source.error().message);
+        job["noise"] = text;
+    } else if (text != kWithoutReference) {
+        job["reference"] = existing_references(name, text);
+    } else if (!job.contains("parameters")) {
+        fail_usage(name + " -: without a reference it needs params=FILE");
     }
 }
 
@@ -112,13 +132,12 @@ nlohmann::json job_of(const Step& step)
     nlohmann::json job = { { "format", "srisp-recipe-1" }, { "direction", command.direction } };
     for (const Modifier& modifier : parse_modifiers(step.words[0]))
         set_modifier(job, command, modifier, step.words[0]);
-    if (std::string(command.action) == "save") {
-        job["file"] = frame_pattern_of_file(output_path(name, step.words[1]));
-    } else if (command.argument && step.words[1] != kWithoutReference) {
-        job["reference"] = existing_references(name, step.words[1]);
-    } else if (command.argument && !job.contains("parameters")) {
-        fail_usage(name + " -: without a reference it needs params=FILE");
-    }
+    if (command.argument)
+        set_argument(job, command, name, step.words[1]);
+    if (command.door == kMosaic && !job.contains("mosaic"))
+        job["mosaic"] = "reference";
+    if (command.action == std::string("sensor"))
+        job["action"] = command.action;
     return job;
 }
 

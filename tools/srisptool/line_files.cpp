@@ -91,6 +91,7 @@ void add_job(InputFiles& inputs, const nlohmann::json& job)
                                                      : reference.get<std::vector<std::string>>());
     }
     inputs.add("parameter file", job.value("parameters", ""));
+    inputs.add("noise profile", job.value("profile", ""));
     add_model(inputs, job.value("model", ""));
 }
 

@@ -6,6 +6,7 @@
 #include "../common/failure.h"
 #include "command_line.h"
 #include "help.h"
+#include "output_depth.h"
 #include "stock_oiiotool.h"
 
 using namespace srisp;
@@ -25,7 +26,8 @@ static int run(const std::string& program, const std::vector<std::string>& words
         std::puts("srisptool " SRISP_VERSION ", with oiiotool");
     }
     std::fflush(stdout);
-    if (std::none_of(steps.begin(), steps.end(), is_for_images))
+    const auto is_rewritten = [](const Step& step) { return is_for_images(step) || writes_dng(step); };
+    if (std::none_of(steps.begin(), steps.end(), is_rewritten))
         run_unchanged(steps);
     return run_rewritten(program, steps);
 }

@@ -80,4 +80,53 @@ std::string choose_depth(std::vector<std::string>& words)
            "format without this warning";
 }
 
+/// What a modifier of an output command says; "": nothing.
+static std::string modifier_of(const std::string& word, const std::string& wanted)
+{
+    for (const auto& [name, value] : oiiotool_modifiers(word))
+        if (name == wanted)
+            return value;
+    return {};
+}
+
+bool writes_dng(const Step& step)
+{
+    return step.is_named("o") && step.words.size() > 1 && output_format(step.words) == "dng";
+}
+
+bool writes_integers(const std::vector<Step>& steps, std::size_t first)
+{
+    std::string depth;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const std::vector<std::string>& words = steps[i].words;
+        if (steps[i].is_named("d") && words.size() > 1)
+            depth = words[1];
+        if (i < first || !steps[i].is_named("o") || words.size() < 2 || writes_dng(steps[i]))
+            continue;
+        const std::string own = modifier_of(words[0], "datatype");
+        const std::string& type = own.empty() ? depth : own;
+        if (type.find("int") != std::string::npos || deepest(output_format(words)) != Depth::any)
+            return true;
+    }
+    return false;
+}
+
+Modifiers take_dng_options(std::vector<std::string>& words, const std::string& depth)
+{
+    Modifiers attributes;
+    std::string type = depth, rest = words[0].substr(0, words[0].find(':'));
+    for (const auto& [name, value] : parse_modifiers(words[0])) {
+        if (name == "layout" || name == "compression")
+            attributes.emplace_back(name == "layout" ? "dng:layout" : name, value);
+        else if (name == "datatype" || name == "type")
+            type = value;
+        else
+            rest += ":" + name + "=" + value;
+    }
+    words[0] = rest;
+    if (type == "half" || type == "float")
+        attributes.emplace_back("dng:datatype", type);
+    return attributes;
+}
+
 } // namespace srisp::tool

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "command_line.h"
+
 namespace srisp::tool {
 
 /// What a file format can hold of a linear image.
@@ -26,5 +28,16 @@ bool holds_orientation(const std::string& format);
 /// output command that says no depth gets the deepest that its format holds. Returns a
 /// warning where that is 8 bits, else nothing.
 std::string choose_depth(std::vector<std::string>& words);
+
+/// Whether outputs of steps from `first` on write integers, into which nothing below 0 goes; DNG, which has levels of
+/// its own, does not count.
+bool writes_integers(const std::vector<Step>& steps, std::size_t first);
+
+/// Whether a step writes a DNG.
+bool writes_dng(const Step& step);
+
+/// Takes the options of a DNG (layout, compression, a float datatype) from its output command, as attributes for its
+/// writer. `depth`: what `-d` says; "": nothing.
+Modifiers take_dng_options(std::vector<std::string>& words, const std::string& depth);
 
 } // namespace srisp::tool

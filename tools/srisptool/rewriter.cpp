@@ -53,9 +53,9 @@ public:
         m_result.words.push_back("--nosoftwareattrib");
         for (std::size_t i = 0; i < m_steps.size(); ++i) {
             const Step& step = m_steps[i];
-            unmark(step);
+            end_output(step);
             if (step.srisp)
-                add_ours(step);
+                i = add_ours(i);
             else if (!name_read_by(step).empty())
                 add_image(step, i);
             else
@@ -101,11 +101,13 @@ private:
             m_hints = true;
         else if (step.is_named("n"))
             m_dry_run = true;
-        else if (step.is_named("d"))
-            m_depth_given = true;
+        else if (step.is_named("d") && words.size() > 1)
+            m_depth = words[1];
         else if (step.is_named("label") && words.size() > 1)
             m_labels.push_back(words[1]);
-        else if (step.is_named("o") && words.size() > 1 && m_raw && !m_depth_given)
+        else if (writes_dng(step))
+            return write_dng(std::move(words));
+        else if (step.is_named("o") && words.size() > 1 && m_raw && m_depth.empty())
             if (const std::string warning = choose_depth(words); !warning.empty())
                 m_result.warnings.push_back(warning);
         if ((step.is_named("autoorient") || step.is_named("auto-orient")) && !m_acted)
@@ -143,7 +145,18 @@ private:
         emit(orientation::ensure());
         emit_evaluated(orientation::mark_for_png());
         emit(words);
-        m_marked = true;
+        m_after_output = orientation::unmark();
+    }
+
+    /// Its options are attributes of the image, for as long as it is written.
+    void write_dng(std::vector<std::string> words)
+    {
+        m_after_output = {};
+        for (const auto& [name, value] : take_dng_options(words, m_depth)) {
+            emit({ "--attrib:type=string", name, value });
+            m_after_output.insert(m_after_output.end(), { "--eraseattrib", name });
+        }
+        emit(words);
     }
 
     /// A file that cannot say how it is to be turned. Only oiiotool knows whether that is lost: it leaves a mark.
@@ -159,12 +172,12 @@ private:
     }
 
     /// Not at once: oiiotool warns of a change behind the last output.
-    void unmark(const Step& next)
+    void end_output(const Step& next)
     {
-        if (!m_marked || (next.oiiotool && next.oiiotool->role == Role::plain))
+        if (next.oiiotool && next.oiiotool->role == Role::plain)
             return;
-        emit(orientation::unmark());
-        m_marked = false;
+        emit(m_after_output);
+        m_after_output.clear();
     }
 
     void add_image(const Step& step, std::size_t i)
@@ -237,15 +250,18 @@ private:
         return name + "." + source.wildcard + ".srisp";
     }
 
-    void add_ours(const Step& step)
+    /// Returns the number of the last step that was taken.
+    std::size_t add_ours(std::size_t i)
     {
+        const Step& step = m_steps[i];
         if (step.srisp->effect == Effect::configures) {
             if (step.is_named("quiet"))
                 emit({ "-q" });
-            return;
+            return i;
         }
         const std::string command = std::string("--") + step.srisp->name;
         nlohmann::json job = job_of(step);
+        const std::size_t last = step.srisp->effect == Effect::replaces ? join_sensor_steps(i, job) : i;
         if (!m_any_image)
             fail(command + ": no image before it");
         if (!m_options.typed_command.empty())
@@ -260,6 +276,29 @@ private:
             hand_over(std::move(job), *step.srisp);
         if (step.srisp->effect == Effect::replaces)
             m_raw = step.srisp->direction == std::string("reverse");
+        return last;
+    }
+
+    /// Lets a job take in the steps for a sensor that follow its own, and says what these need to know of the line.
+    /// Returns the number of the last one.
+    std::size_t join_sensor_steps(std::size_t i, nlohmann::json& job)
+    {
+        const bool reverse = job["direction"] == "reverse";
+        for (const char* next : { "srisp-mosaic", "srisp-noise" }) {
+            const bool joins = reverse && i + 1 < m_steps.size() && m_steps[i + 1].is_named(next);
+            if (!joins || job.contains("noise"))
+                continue;
+            nlohmann::json other = job_of(m_steps[++i]);
+            other.erase("action");
+            job.update(other);
+        }
+        if (job.contains("mosaic") && !job.contains("levels") && writes_integers(m_steps, i + 1))
+            job["levels"] = "camera";
+        if (job.contains("reference"))
+            m_reference = { { "reference", job["reference"] }, { "seed", job.value("seed", 0) } };
+        else if (job.contains("noise"))
+            job.update(m_reference); // it may be estimated
+        return i;
     }
 
     void read_directly(nlohmann::json recipe, const std::string& command)
@@ -304,13 +343,14 @@ private:
     bool m_orients = false;         ///< --autoorient, which is done by commands of ours
     bool m_acted = false;           ///< a command may be waiting for the next image, or run conditionally
     bool m_any_image = false;
-    std::string m_typed_name;           ///< of the last image that was read
-    std::string m_image_name;           ///< the same, a frame pattern as printf has it
-    std::optional<SourceFile> m_direct; ///< is to be read by our command, which is next
-    bool m_raw = false;                 ///< the last of our commands made a RAW-like image
-    bool m_depth_given = false;
-    bool m_marked = false; ///< the image on top bears the text that becomes a PNG file's orientation
+    std::string m_typed_name;                ///< of the last image that was read
+    std::string m_image_name;                ///< the same, a frame pattern as printf has it
+    std::optional<SourceFile> m_direct;      ///< is to be read by our command, which is next
+    bool m_raw = false;                      ///< the last of our commands made a RAW-like image
+    std::string m_depth;                     ///< of `-d`; "": not given
+    std::vector<std::string> m_after_output; ///< words that take from the image on top what only the output needed
     bool m_dry_run = false;
+    nlohmann::json m_reference = nlohmann::json::object(); ///< of the last --srisp-unprocess, and its seed
 };
 
 } // namespace

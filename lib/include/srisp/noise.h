@@ -25,6 +25,8 @@ SRISP_API Status check_noise(const NoiseModel& noise);
 /// another count of figures, or figures that cannot be.
 SRISP_API Expected<NoiseModel> profile_noise(const CameraFacts& facts);
 
+SRISP_API Expected<NoiseModel> reference_noise(const struct Reference& reference, bool isolate = true);
+
 /// From darktable's noiseprofiles.json (version 0), which holds a and b of a · v + b for many cameras and ISOs. The
 /// camera is found by make and model, case and spaces ignored, with or without the make before the model. Between two
 /// ISOs a and b are interpolated linearly, as darktable does; entries to skip are skipped; figures below 0, which its

@@ -37,6 +37,16 @@ enum class GainMapUse {
     apply   ///< the photo is its HDR picture; what is brighter than SDR white goes above 1 in the result
 };
 
+/// Which colour filters lie over a RAW-like image, as over a sensor: of each pixel one channel is left.
+enum class Mosaic { reference, rggb, grbg, gbrg, bggr };
+
+/// What the values of a mosaic are.
+enum class Levels {
+    unit,  ///< 0 is black, 1 is white
+    camera ///< as integers of 16 bits the codes of the reference's file, black level included: noise below black
+           ///< survives
+};
+
 /// What may be asked for beside a photo and a reference.
 struct Options {
     std::string model;                    ///< name, or path of a .safetensors file; empty: the known one that
@@ -48,11 +58,20 @@ struct Options {
     bool allow_partial = false; ///< a photo that breaks off is taken as far as it goes, with a note
     bool isolate = true;        ///< RAW files are decoded by a program of their own (load_reference)
     std::uint64_t seed = 0;     ///< with the photo's name it says which of several references is taken
+
+    std::optional<Mosaic> mosaic; ///< `reference`: its phase; where that is not known RGGB, with a note
+    Levels levels = Levels::unit; ///< of a mosaic
+    /// Where the figures of noise to be added come from: `reference`, `iso=800`, `shot=0.01,read=1e-4` (variance =
+    /// shot · value + read; one figure each, or three for R, G, B), `upi`; empty: none is added.
+    std::string noise;
+    std::string profile; ///< path of a noiseprofiles.json, for noise by ISO; empty: the one darktable installed
+    std::uint64_t noise_seed = 0; ///< with the photo's name it says which noise
 };
 
 /// Sets one option by its name, as a query, a recipe and srisptool do: model, params (the path of a JSON file), input
 /// (auto, srgb, linear), precision (float32, fast), seed, gainmap (ignore, apply), allow_partial (0, 1), isolate (0,
-/// 1). Errors: unknown keys and values (the near ones listed), a file that cannot be read.
+/// 1), mosaic (reference, RGGB, …), levels (unit, camera), noise, profile, noise_seed. Errors: unknown keys and
+/// values (the near ones listed), a file that cannot be read.
 SRISP_API Status set_option(Options& options, const std::string& key, const std::string& value);
 
 } // namespace srisp

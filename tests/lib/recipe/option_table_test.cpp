@@ -47,12 +47,12 @@ TEST_CASE("what commands take has help, and a job can say it")
 {
     for (const Option& option : option_table()) {
         INFO(option.key);
-        const bool typed = option.doors & (kUnprocess | kProcess | kParams);
+        const bool typed = option.doors & kCommands;
         CHECK(typed == (*option.help != '\0'));
         CHECK(typed == (*option.argument != '\0'));
         CHECK((option.type == OptionType::choice) == !option.values.empty());
-        if (typed && option.type != OptionType::parameters)
-            CHECK((option.doors & kJob) != 0);
+        if (typed)
+            CHECK(find_option(kJob, job_key(option)));
     }
 }
 
@@ -91,7 +91,8 @@ TEST_CASE("a program's options are set by name")
           "unknown input 'camera'; known: auto, srgb, linear");
     CHECK(set_option(options, "sed", "3").error().message == "unknown option 'sed'; did you mean 'seed'?");
     CHECK(set_option(options, "hold", "1").error().message ==
-          "unknown option 'hold'; known: model, params, input, gainmap, precision, seed, allow_partial, isolate");
+          "unknown option 'hold'; known: model, params, input, gainmap, precision, seed, mosaic, levels, noise, "
+          "profile, noise_seed, allow_partial, isolate");
     CHECK(set_option(options, "params", "/nowhere/p.json").error().message ==
           "parameters '/nowhere/p.json': No such file or directory");
     CHECK(options.input == InputEncoding::linear);

@@ -48,8 +48,8 @@ TEST_CASE("our commands are found by one dash or two, and take their arguments")
 TEST_CASE("unknown commands of ours and missing arguments are wrong usage")
 {
     const auto failure = [](const Words& words) { return failure_of([&] { parse_command_line(words); }); };
-    CHECK(failure({ "--srisp-unproces", "r.dng" }) ==
-          "2: unknown command '--srisp-unproces'; did you mean '--srisp-unprocess' or '--srisp-process'?");
+    CHECK(failure({ "--srisp-unproces", "r.dng" }) == "2: unknown command '--srisp-unproces'; did you mean "
+                                                      "'--srisp-unprocess' or '--srisp-process' or '--srisp-noise'?");
     CHECK(failure({ "a.jpg", "--srisp-unprocess" }) == "2: --srisp-unprocess needs an argument: REF");
     CHECK(failure({ "a.jpg", "--srisp-save-params" }) == "2: --srisp-save-params needs an argument: FILE");
     CHECK(failure({ "a.jpg", "-o" }) == ""); // oiiotool says it

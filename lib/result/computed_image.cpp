@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "result/computed_image.h"
+
+#include "result/result_image.h"
+#include "result/sensor_image.h"
+#include "result/stored_image.h"
+
+namespace srisp {
+
+namespace {
+
+template<class Image> Expected<std::unique_ptr<ComputedImage>> as_computed(Expected<std::unique_ptr<Image>> image)
+{
+    if (!image)
+        return image.error();
+    return std::unique_ptr<ComputedImage>(std::move(*image));
+}
+
+} // namespace
+
+Expected<std::unique_ptr<ComputedImage>> open_computed_image(const Recipe& recipe, std::unique_ptr<PixelSource> source,
+                                                             const OIIO::ImageSpec& config, KeptResults& kept)
+{
+    const std::string name = source->name();
+    auto image = recipe.action == Recipe::Action::sensor
+                     ? as_computed(StoredImage::open(std::move(source)))
+                     : as_computed(ResultImage::open(recipe, std::move(source), config, kept));
+    if (!image || (!recipe.mosaic && recipe.noise.empty()))
+        return image;
+    return as_computed(SensorImage::open(recipe, name, std::move(*image), kept));
+}
+
+} // namespace srisp
