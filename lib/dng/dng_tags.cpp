@@ -70,8 +70,12 @@ void set_file_tags(const DngImage& image, TiffFolderBytes& folder, std::vector<s
     // Floats and their Deflate came with 1.4; all else that must be understood is in 1.1.
     folder.set_bytes(kDngBackwardVersion, image.floats ? std::string("\1\4\0\0", 4) : std::string("\1\1\0\0", 4));
     folder.set_text(kSoftware, "srisp " SRISP_VERSION);
-    if (!image.description.empty())
-        folder.set_text(kImageDescription, image.description);
+    for (const auto& [tag, text] : { std::pair{ kImageDescription, &image.description },
+                                     { kDateTime, &image.date_time },
+                                     { kArtist, &image.artist },
+                                     { kCopyright, &image.copyright } })
+        if (!text->empty())
+            folder.set_text(tag, *text);
     if (!image.xmp.empty())
         folder.set_bytes(kXmp, image.xmp);
     folder.set_signed_rationals(kBaselineExposure, { image.baseline_exposure });

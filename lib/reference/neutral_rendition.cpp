@@ -20,13 +20,13 @@ float clamped01(float v)
     return std::clamp(v, 0.0f, 1.0f);
 }
 
-std::array<float, 3> white_balance(const Reference& reference)
+std::array<float, 3> white_balance(const std::vector<float>& rgb, const CameraFacts& facts)
 {
-    std::array<float, 3> neutral = reference.facts.as_shot_neutral;
+    std::array<float, 3> neutral = facts.as_shot_neutral;
     if (*std::min_element(neutral.begin(), neutral.end()) <= 0) {
         std::array<double, 3> sum{ 1e-6, 1e-6, 1e-6 };
-        for (std::size_t i = 0; i < reference.thumbnail.rgb.size(); ++i)
-            sum[i % 3] += reference.thumbnail.rgb[i];
+        for (std::size_t i = 0; i < rgb.size(); ++i)
+            sum[i % 3] += rgb[i];
         for (int c = 0; c < 3; ++c)
             neutral[c] = static_cast<float>(sum[c] / sum[1]);
     }
@@ -45,29 +45,36 @@ Matrix3 camera_to_srgb(const CameraFacts& facts)
 
 } // namespace
 
-Thumbnail neutral_rendition(const Reference& reference)
+void render_neutrally(std::vector<float>& rgb, const CameraFacts& facts)
 {
-    Thumbnail picture = reference.thumbnail;
-    const std::array<float, 3> balance = white_balance(reference);
+    const std::array<float, 3> balance = white_balance(rgb, facts);
     // What is clipped in the RAW is white: no channel goes beyond where the first one clips.
     const float clipped = *std::min_element(balance.begin(), balance.end());
     std::vector<float> means;
-    for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
-        for (int c = 0; c < 3; ++c)
-            picture.rgb[i + c] = std::min(picture.rgb[i + c] * balance[c], clipped);
-        means.push_back((picture.rgb[i] + picture.rgb[i + 1] + picture.rgb[i + 2]) / 3);
+    for (std::size_t i = 0; i < rgb.size(); i += 3) {
+        for (std::size_t c = 0; c < 3; ++c)
+            rgb[i + c] = std::min(rgb[i + c] * balance[c], clipped);
+        means.push_back((rgb[i] + rgb[i + 1] + rgb[i + 2]) / 3);
     }
+    if (means.empty())
+        return;
     const auto bright = means.begin() + static_cast<std::ptrdiff_t>(kBright * (means.size() - 1));
     std::nth_element(means.begin(), bright, means.end());
     const float gain = kBrightBecomes / std::max(*bright, 1e-3f);
-    const Matrix3 matrix = camera_to_srgb(reference.facts);
-    for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
-        float* rgb = &picture.rgb[i];
-        const float camera[3] = { clamped01(gain * rgb[0]), clamped01(gain * rgb[1]), clamped01(gain * rgb[2]) };
-        for (int c = 0; c < 3; ++c)
-            rgb[c] = srgb_encoded(
+    const Matrix3 matrix = camera_to_srgb(facts);
+    for (std::size_t i = 0; i < rgb.size(); i += 3) {
+        const float camera[3] = { clamped01(gain * rgb[i]), clamped01(gain * rgb[i + 1]),
+                                  clamped01(gain * rgb[i + 2]) };
+        for (std::size_t c = 0; c < 3; ++c)
+            rgb[i + c] = srgb_encoded(
                 clamped01(matrix[c * 3] * camera[0] + matrix[c * 3 + 1] * camera[1] + matrix[c * 3 + 2] * camera[2]));
     }
+}
+
+Thumbnail neutral_rendition(const Reference& reference)
+{
+    Thumbnail picture = reference.thumbnail;
+    render_neutrally(picture.rgb, reference.facts);
     return picture;
 }
 

@@ -45,11 +45,11 @@ void append_notes(OIIO::ImageSpec& spec, const std::vector<std::string>& notes)
         spec.attribute(attribute::kNotes, OIIO::Strutil::join(all, "; "));
 }
 
-/// The four levels in the order of a mosaic's rows and columns.
+/// Of a pixel's filter.
 float black_of(const SensorValues& values, BayerPhase phase, int x, int y)
 {
     const int color = bayer_color(phase, x, y);
-    const bool second_green = color == 1 && bayer_color(phase, x ^ 1, y) == 2;
+    const bool second_green = color == 1 && (y & 1); // as CameraFacts counts
     return values.black_level[std::size_t(second_green ? 3 : color)];
 }
 

@@ -31,6 +31,7 @@ struct DngImage {
     CameraFacts facts;
     float baseline_exposure = 0; ///< EV
     std::string description, xmp;
+    std::string date_time, artist, copyright; ///< as TIFF has them; empty: not known
 
     /// An sRGB picture of it, 8 bits, rows of `3 · preview_width` bytes; no larger than the image. Null: none.
     const std::uint8_t* preview = nullptr;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
+#include <srisp/camera.h>
 #include <srisp/export.h>
 #include <srisp/reference.h>
 
@@ -12,5 +15,8 @@ namespace srisp {
 /// row sums to 1; where it has none: as it is), clipped, encoded with the sRGB curve. It stands in for the photo where
 /// there is none. Deterministic; any number of threads.
 SRISP_API Thumbnail neutral_rendition(const Reference& reference);
+
+/// The same of any picture in linear camera RGB, in place: three values a pixel.
+SRISP_API void render_neutrally(std::vector<float>& rgb, const CameraFacts& facts);
 
 } // namespace srisp

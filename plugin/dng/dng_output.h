@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include <OpenImageIO/imageio.h>
+#include <srisp/expected.h>
+
+#include "dng_samples.h"
+#include "dng_settings.h"
+
+namespace srisp::plugin {
+
+/// The writer of DNG files: a RAW-like result as a mosaic (one channel) or as LinearRaw (three), with its camera's
+/// facts; any other image of three channels as what a neutral camera would have seen. Its options are attributes
+/// (dng_settings.h). Samples are kept as integers of 16 bits until the file is written, at once, when it is closed: it
+/// is complete or absent.
+class DngOutput final : public OIIO::ImageOutput {
+public:
+    const char* format_name() const override { return "dng"; }
+    int supports(OIIO::string_view feature) const override;
+    bool open(const std::string& name, const OIIO::ImageSpec& spec, OpenMode mode) override;
+    bool close() override;
+    bool write_scanline(int y, int z, OIIO::TypeDesc format, const void* data, OIIO::stride_t xstride) override;
+
+private:
+    bool fail(const std::string& message);
+    bool succeeds(const std::function<Status()>& step);
+    Status begin(const std::string& name, const OIIO::ImageSpec& spec);
+    Status finish();
+
+    std::string m_path;
+    DngSettings m_settings;
+    std::optional<DngSamples> m_samples; ///< none: not open, or something failed
+};
+
+} // namespace srisp::plugin
