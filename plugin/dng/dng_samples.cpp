@@ -41,6 +41,8 @@ Expected<DngSamples> DngSamples::create(const OIIO::ImageSpec& spec, const DngSe
     if (spec.nchannels != 1 && spec.nchannels != 3)
         return Error{ "image of " + std::to_string(spec.nchannels) +
                       " channels: a DNG has 1 (a mosaic) or 3 (R, G, B; --ch R,G,B leaves others out)" };
+    if (settings.floats && spec.nchannels == 1)
+        return Error{ "a mosaic has integers; half and float are for three channels" };
     const Status set = spec.nchannels == 1 ? samples.set_mosaic(spec) : samples.set_colors(spec);
     if (!set)
         return set.error();

@@ -15,7 +15,7 @@ namespace {
 namespace Strutil = OIIO::Strutil;
 
 const std::string kPrefix = "dng:";
-const char kLayout[] = "dng:layout", kDatatype[] = "dng:datatype", kQuiet[] = "dng:quiet";
+const char kLayout[] = "dng:layout", kDatatype[] = "dng:datatype", kBits[] = "dng:bits", kQuiet[] = "dng:quiet";
 
 /// The values of an attribute, in the order of its enumeration.
 struct Choice {
@@ -59,11 +59,28 @@ bool is_other_formats(const std::string& compression)
 
 Status check_names(const OIIO::ImageSpec& spec)
 {
-    const std::vector<std::string> known = { kLayout, kDatatype, kQuiet };
+    const std::vector<std::string> known = { kLayout, kDatatype, kBits, kQuiet };
     for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
         const std::string name = attribute.name().string();
         if (name.compare(0, kPrefix.size(), kPrefix) == 0 && std::find(known.begin(), known.end(), name) == known.end())
             return Error{ "unknown attribute '" + shown_text(name) + "'" + near_names(name, known) };
+    }
+    return {};
+}
+
+constexpr int kFewestBits = 10, kMostBits = 16;
+
+/// Stock oiiotool takes the second attribute from images.
+Status read_bits(const OIIO::ImageSpec& spec, int& bits)
+{
+    if (const OIIO::ParamValue* const value = spec.find_attribute(kBits)) {
+        bits = value->get_int();
+        if (bits < kFewestBits || bits > kMostBits)
+            return Error{ std::string(kBits) + " '" + shown_text(value->get_string()) +
+                          "': from 10 to 16 are possible" };
+    } else if (const int said = spec.get_int_attribute("oiio:BitsPerSample");
+               said >= kFewestBits && said <= kMostBits) {
+        bits = said;
     }
     return {};
 }
@@ -87,8 +104,8 @@ Expected<DngSettings> read_dng_settings(const OIIO::ImageSpec& spec)
     settings.options.compression = settings.floats ? DngCompression::deflate : DngCompression::lossless;
     if (settings.floats)
         settings.options.bits = *datatype == 1 ? 16 : 32;
-    else if (const int bits = spec.get_int_attribute("oiio:BitsPerSample"); bits >= 10 && bits <= 16)
-        settings.options.bits = bits;
+    else if (const Status bits = read_bits(spec, settings.options.bits); !bits)
+        return bits.error();
     const std::string compression = spec.get_string_attribute("compression");
     if (compression.empty() || is_other_formats(compression))
         return settings;

@@ -116,8 +116,10 @@ Modifiers take_dng_options(std::vector<std::string>& words, const std::string& d
     Modifiers attributes;
     std::string type = depth, rest = words[0].substr(0, words[0].find(':'));
     for (const auto& [name, value] : parse_modifiers(words[0])) {
-        if (name == "layout" || name == "compression")
-            attributes.emplace_back(name == "layout" ? "dng:layout" : name, value);
+        if (name == "layout" || name == "bits")
+            attributes.emplace_back("dng:" + name, value);
+        else if (name == "compression")
+            attributes.emplace_back(name, value);
         else if (name == "datatype" || name == "type")
             type = value;
         else

@@ -152,7 +152,10 @@ private:
     void write_dng(std::vector<std::string> words)
     {
         m_after_output = {};
-        for (const auto& [name, value] : take_dng_options(words, m_depth)) {
+        Modifiers attributes = take_dng_options(words, m_depth);
+        if (!m_options.notes)
+            attributes.emplace_back("dng:quiet", "1");
+        for (const auto& [name, value] : attributes) {
             emit({ "--attrib:type=string", name, value });
             m_after_output.insert(m_after_output.end(), { "--eraseattrib", name });
         }

@@ -85,15 +85,23 @@ TEST_CASE("a mosaic has the camera's levels where integers are written, unless t
 TEST_CASE("options of a DNG are attributes for as long as it is written")
 {
     const Files files;
-    const auto words = [&](std::vector<std::string> rest) {
+    const auto words = [&](std::vector<std::string> rest, bool notes = true) {
         std::vector<std::string> line = { files.photo };
         line.insert(line.end(), rest.begin(), rest.end());
-        return rewritten(line).words;
+        return rewritten(line, { "/T", "", false, notes }).words;
     };
+    const Words set_layout = { "--attrib:type=string", "dng:layout", "cinema" };
+    const Words set_bits = { "--attrib:type=string", "dng:bits", "12" };
+    const Words set_compression = { "--attrib:type=string", "compression", "none" };
     CHECK(words({ "-o:layout=cinema:bits=12:compression=none", "x.dng", "-v", "-o", "x.exr" }) ==
-          joined({ { files.photo, "--attrib:type=string", "dng:layout", "cinema", "--attrib:type=string", "compression",
-                     "none", "-o:bits=12", "x.dng", "-v", "--eraseattrib", "dng:layout", "--eraseattrib", "compression",
-                     "-o", "x.exr" } }));
+          joined({ { files.photo },
+                   set_layout,
+                   set_bits,
+                   set_compression,
+                   { "-o", "x.dng", "-v", "--eraseattrib", "dng:layout", "--eraseattrib", "dng:bits", "--eraseattrib",
+                     "compression", "-o", "x.exr" } }));
+    CHECK(words({ "-o", "x.dng" }, false) ==
+          joined({ { files.photo, "--attrib:type=string", "dng:quiet", "1", "-o", "x.dng" } }));
     CHECK(words({ "-d", "half", "-o", "x.dng" }) ==
           joined({ { files.photo, "-d", "half", "--attrib:type=string", "dng:datatype", "half", "-o", "x.dng" } }));
     CHECK(
