@@ -145,6 +145,23 @@ TEST_CASE("an estimate is the same for any number of threads, and black levels o
         CHECK(shifted->shot[c] == doctest::Approx(one->shot[c]).epsilon(0.03));
 }
 
+TEST_CASE("floats far below black, which no sensor makes, do not spoil the estimate from the rest of a picture")
+{
+    const NoiseModel noise{ { 1e-3, 1e-3, 1e-3 }, { 2e-5, 2e-5, 2e-5 } };
+    MadeRaw raw(2048, 1536, noise, busy_scene);
+    raw.pixels.shorts = nullptr;
+    raw.pixels.floats = raw.values.data();
+    raw.pixels.black = { 1, 1, { 0 }, {}, {} };
+    raw.pixels.white = { 1, 1, 1 };
+    for (int y = 0; y < 512; ++y)
+        for (int x = 0; x < 512; ++x)
+            raw.values[std::size_t(y * 2048 + x)] = (x / 2 + y / 2) % 2 ? -3e19f : 0.0f;
+    const auto estimated = estimate_noise(raw.pixels);
+    REQUIRE_MESSAGE(estimated, (estimated ? "" : estimated.error().message));
+    for (std::size_t c = 0; c < 3; ++c)
+        CHECK(estimated->shot[c] == doctest::Approx(1e-3).epsilon(0.1));
+}
+
 TEST_CASE("pictures that do not show their noise are refused with the reason")
 {
     const NoiseModel noise{ { 1e-3, 1e-3, 1e-3 }, { 2e-5, 2e-5, 2e-5 } };
