@@ -48,7 +48,7 @@ srisp_man_page(srispbake --help)
 # Started by the others, so it is no command of users'. Of the libraries that its own link it needs few, and each costs
 # time to load: OpenImageIO alone, whose two hundred it does not call, a third of a second.
 add_executable(srispdecode srispdecode/main.cpp)
-target_link_libraries(srispdecode PRIVATE srisp_reference)
+target_link_libraries(srispdecode PRIVATE srisp_noise)
 target_link_options(srispdecode PRIVATE -Wl,--as-needed)
 set_target_properties(srispdecode PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/libexec/srisp)
 install(TARGETS srispdecode DESTINATION ${SRISP_LIBEXEC_DIR})

@@ -165,18 +165,18 @@ Expected<Line> color_line(const std::vector<BlockStatistics>& blocks)
 Expected<NoiseModel> estimate_noise(const RawPixels& pixels, int threads)
 {
     if (pixels.channels != 1)
-        return Error{ "noise cannot be estimated from an image of three channels: demosaicing has mixed it" };
+        return Error{ "three channels: demosaicing has mixed the noise of neighbours" };
     const auto blocks = block_statistics(pixels, threads);
     NoiseModel noise;
     for (std::size_t c = 0; c < 3; ++c) {
         const auto line = color_line(blocks[c]);
         if (!line)
-            return Error{ std::string("noise cannot be estimated: ") + "RGB"[c] + ": " + line.error().message };
+            return Error{ std::string(1, "RGB"[c]) + ": " + line.error().message };
         noise.shot[c] = line->shot;
         noise.read[c] = line->read;
     }
     if (const Status possible = check_noise(noise); !possible)
-        return Error{ "noise cannot be estimated: " + possible.error().message };
+        return possible.error();
     return noise;
 }
 

@@ -23,8 +23,8 @@ namespace srisp {
 /// What fine, strong texture everywhere leaves in it is some 10 % in shot noise; read noise is less certain where it is
 /// small against the shot noise of the darkest blocks.
 ///
-/// Errors: three channels (demosaicing has mixed the noise of neighbours); a colour with too few flat blocks, with too
-/// small a range of brightness, or whose variance does not grow with it.
+/// Errors, which say why it is not possible: three channels (demosaicing has mixed the noise of neighbours); a colour
+/// with too few flat blocks, with too small a range of brightness, or whose variance does not grow with it.
 Expected<NoiseModel> estimate_noise(const RawPixels& pixels, int threads = 0);
 
 } // namespace srisp

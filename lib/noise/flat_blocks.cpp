@@ -13,10 +13,11 @@ namespace {
 constexpr int kSide = 16, kPart = 4, kParts = kSide / kPart;
 using Block = std::array<std::array<float, kSide>, kSide>;
 
-/// Reads stored values as (value − black) / (white − black), without a limit. False where one is clipped.
+/// Reads stored values as (value − black) / (white − black). False where one is clipped, or no sensor's: floats of
+/// damaged files can be anything, and their squares too much to be numbers.
 bool read_block(const RawPixels& pixels, int row, int column, Block& block)
 {
-    constexpr float kWhite = 0.95f; // sensors bend before they clip
+    constexpr float kLeast = -1, kWhite = 0.95f; // sensors bend before they clip
     const CfaPattern& cfa = pixels.cfa;
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) {
@@ -25,7 +26,7 @@ bool read_block(const RawPixels& pixels, int row, int column, Block& block)
             const float stored = pixels.shorts ? float(pixels.shorts[place]) : pixels.floats[place];
             const float black = pixels.black.at(at_row, at_column);
             const float value = (stored - black) / (pixels.white[0] - black);
-            if (value > kWhite || (pixels.shorts && stored == 0))
+            if (!(value >= kLeast && value <= kWhite) || (pixels.shorts && stored == 0))
                 return false;
             block[std::size_t(y)][std::size_t(x)] = value;
         }

@@ -14,7 +14,8 @@ struct BlockStatistics {
     float texture;        ///< mean square of what is coarser than noise
 };
 
-/// All blocks of a mosaic that hold no clipped values, by colour. Order and values: the same for any `threads`.
+/// All blocks of a mosaic that hold no clipped values, nor such that no sensor has, by colour. Order and values: the
+/// same for any `threads`.
 std::array<std::vector<BlockStatistics>, 3> block_statistics(const RawPixels& pixels, int threads);
 
 /// What the variance of a block of pure noise scatters by, as a χ² of so many degrees of freedom: the variance of a sum

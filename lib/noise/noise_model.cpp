@@ -3,7 +3,6 @@
 
 #include <srisp/noise.h>
 
-#include <srisp/reference.h>
 #include "base/shown_text.h"
 #include "noise/philox.h"
 
@@ -34,11 +33,6 @@ Expected<NoiseModel> profile_noise(const CameraFacts& facts)
     if (const Status possible = check_noise(noise); !possible)
         return Error{ "NoiseProfile: " + possible.error().message };
     return noise;
-}
-
-Expected<NoiseModel> reference_noise(const Reference& reference, bool)
-{
-    return profile_noise(reference.facts);
 }
 
 NoiseModel upi_noise(std::uint64_t seed)

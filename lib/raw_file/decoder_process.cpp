@@ -28,7 +28,7 @@ namespace srisp {
 namespace {
 
 const char kProgram[] = "srispdecode";
-const char* const kTaskNames[] = { "reference", "trial" }; ///< by DecoderTask
+const char* const kTaskNames[] = { "reference", "noise", "trial" }; ///< by DecoderTask
 
 // A reference's answer has less than 1 MiB.
 constexpr std::size_t kMostAnswer = std::size_t(16) << 20;
@@ -159,6 +159,11 @@ bool write_all(const std::string& bytes)
 }
 
 } // namespace
+
+Error decoder_nonsense()
+{
+    return { "makes its decoder answer with nonsense; it is damaged, or made to do harm" };
+}
 
 Expected<std::string> run_decoder(DecoderTask task, const std::string& path)
 {

@@ -14,13 +14,17 @@ namespace srisp {
 /// What the program can be asked for.
 enum class DecoderTask {
     reference, ///< a reference (reference_bytes.h)
+    noise,     ///< noise that is estimated from a RAW file (file_noise.h)
     trial      ///< nothing but whether LibRaw decodes the file without harm
 };
 
-/// Starts the program, and waits for its answer: some bytes for `reference`, none for `trial`. Errors, without the
+/// Starts the program, and waits for its answer: some bytes, none for `trial`. Errors, without the
 /// file's name: what the program says of the file; it crashed, or took more time or memory than such a file can need;
 /// it is not installed, or of another version. Threads: safe; nothing of the process is changed.
 Expected<std::string> run_decoder(DecoderTask task, const std::string& path);
+
+/// The error for an answer that is no such bytes: the program was misled by its file.
+Error decoder_nonsense();
 
 /// The main function of the program: limits itself, does the task, and writes the answer to stdout. Returns the exit
 /// code.

@@ -139,6 +139,7 @@ private:
 CameraFacts facts_of(const OIIO::ImageSpec& spec)
 {
     CameraFacts facts = recorded_camera(spec);
+    facts.noise_profile = recorded_sensor(spec).noise_profile; // of values in [0,1], whatever the levels were
     facts.width = spec.width;
     facts.height = spec.height;
     const int orientation = spec.get_int_attribute("Orientation", 1);

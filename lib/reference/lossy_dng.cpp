@@ -105,7 +105,7 @@ Expected<RawImage> decode_lossy_dng(const FileBytes& file, const DngDescription&
         if (!block)
             return block.error();
 
-    RawImage result{ dng.layout, dng.facts, dng.notes };
+    RawImage result{ dng.layout, dng.facts, dng.notes, true };
     RawPixels& pixels = result.pixels;
     pixels.owner = image;
     pixels.pixel_stride = dng.samples;

@@ -57,6 +57,7 @@ struct RawImage {
     RawPixels pixels;
     CameraFacts facts;
     std::vector<std::string> notes;
+    bool lossy = false; ///< stored as lossy JPEGs, which took the noise away
 };
 
 /// target[i] = clamp01((source[i] − black[i]) · factor[i]), `count` values: what most of the time goes into when a

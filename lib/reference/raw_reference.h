@@ -10,11 +10,26 @@
 
 namespace srisp {
 
-/// All of a reference but its name and path. `hash`: of what the image was decoded from.
-Reference reference_of(const RawImage& image, const std::string& hash);
+struct SampleLayout;
 
-/// The same from a RAW file. `isolate`: it is read and decoded in a process of its own (decoder_process.h). Errors,
-/// without the file's name: it cannot be read; those of decode_raw; those of that process.
+/// A RAW image, and the hash of what it was decoded from, as Reference has it.
+struct HashedRaw {
+    RawImage image;
+    std::string hash;
+};
+
+/// Reads and decodes a RAW file in this process. Errors, without the file's name: it cannot be read; those of
+/// decode_raw.
+Expected<HashedRaw> read_raw(const std::string& path);
+
+/// The same for plain samples. Errors: it cannot be read; those of decode_plain_samples.
+Expected<HashedRaw> read_samples(const std::string& path, const SampleLayout& layout);
+
+/// All of a reference but its name and path.
+Reference reference_of(const HashedRaw& raw);
+
+/// The same from a RAW file. `isolate`: it is read and decoded in a process of its own (decoder_process.h). Errors:
+/// those of read_raw and of that process.
 Expected<Reference> load_raw(const std::string& path, bool isolate);
 
 } // namespace srisp

@@ -5,16 +5,15 @@
 #include <cstdio>
 #include <filesystem>
 
-#include <libraw/libraw_version.h>
 #include <srisp/thumbnail.h>
 
 #include "base/file_bytes.h"
 #include "base/guarded.h"
 #include "base/hashes.h"
-#include "container/file_type.h"
 #include "recipe/reference_pattern.h"
 #include "reference/decoders.h"
 #include "reference/raw_reference.h"
+#include "reference/reference_type.h"
 #include "reference/sample_layout.h"
 #include "reference/tiff_raw.h"
 
@@ -40,20 +39,7 @@ Status check_brightness(const Thumbnail& thumbnail)
     return Error{ text };
 }
 
-/// All but name and path, from plain samples that a file beside them describes.
-Expected<Reference> load_samples(const std::string& path, const SampleLayout& layout)
-{
-    const auto file = read_whole_file(path);
-    if (!file)
-        return file.error();
-    const auto image = decode_plain_samples(*file, layout);
-    if (!image)
-        return image.error();
-    const std::string both = hash_of_bytes(file->data.get(), file->size) + layout.text;
-    return reference_of(*image, hash_of_bytes(both.data(), both.size()));
-}
-
-/// The same from an EXR, or from a TIFF that srisp wrote. `format`: OpenImageIO's name.
+/// All but name and path, from an EXR, or from a TIFF that srisp wrote. `format`: OpenImageIO's name.
 Expected<Reference> load_linear(const std::string& path, const std::string& format)
 {
     const auto image = read_linear_reference(path, format);
@@ -79,18 +65,14 @@ Expected<Reference> load_tiff(const std::string& path, bool isolate)
     return file && !tiff_raw_name(*file).empty() ? raw : linear;
 }
 
-/// From a file in which neither we nor LibRaw know a header.
-Expected<Reference> load_headerless(const std::string& path)
+/// From plain samples that a file beside them describes.
+Expected<Reference> load_samples(const std::string& path)
 {
-    const auto layout = find_sample_layout(path);
+    const auto layout = needed_sample_layout(path);
     if (!layout)
         return layout.error();
-    if (*layout)
-        return load_samples(path, **layout);
-    return Error{ "is not a RAW file that LibRaw " + std::string(LIBRAW_VERSION_STR) +
-                  " knows by its first bytes. If it holds plain samples, describe them in '" + path +
-                  ".json': {\"width\": 4032, \"height\": 3024, \"cfa\": \"RGGB\", \"bits\": 10, \"black\": 64, "
-                  "\"white\": 1023}" };
+    const auto raw = read_samples(path, *layout);
+    return raw ? Expected<Reference>(reference_of(*raw)) : raw.error();
 }
 
 Expected<Reference> load_by_type(const FileType& type, const std::string& path, bool isolate)
@@ -109,23 +91,11 @@ Expected<Reference> load_by_type(const FileType& type, const std::string& path, 
         // Most RAW formats are TIFF inside, some (Canon 1D) even by name.
         return has_raw_extension(path) ? load_raw(path, isolate) : load_tiff(path, isolate);
     case FileKind::headerless:
-        return load_headerless(path);
+        return load_samples(path);
     case FileKind::raw:
         break;
     }
     return load_raw(path, isolate);
-}
-
-/// The file's type. Plain samples may begin with the two bytes of a BMP: what is called RAW and described is no photo.
-FileType type_of(const std::string& head, const std::string& path)
-{
-    std::error_code unknown;
-    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
-    const FileType type = file_type(head, unknown ? 0 : size);
-    const std::vector<std::string> layouts = layout_paths(path);
-    const bool described = type.kind == FileKind::display_encoded && has_raw_extension(path) &&
-                           std::filesystem::exists(layouts.front(), unknown);
-    return described ? FileType{ FileKind::headerless, "", "" } : type;
 }
 
 } // namespace
@@ -134,10 +104,10 @@ Expected<std::shared_ptr<const Reference>> load_reference(const std::string& pat
 {
     const auto fail = [&](const std::string& reason) { return Error{ "reference '" + path + "': " + reason }; };
     return guarded("reference", path, [&]() -> Expected<std::shared_ptr<const Reference>> {
-        const auto head = read_head(path, kHeadBytes);
-        if (!head)
-            return fail(head.error().message);
-        auto reference = load_by_type(type_of(*head, path), path, isolate);
+        const auto type = reference_type(path);
+        if (!type)
+            return fail(type.error().message);
+        auto reference = load_by_type(*type, path, isolate);
         if (!reference)
             return fail(reference.error().message);
         if (Status status = check_brightness(reference->thumbnail); !status)

@@ -8,6 +8,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "raw_file/decoder_process.h"
+
 namespace srisp {
 
 namespace {
@@ -139,7 +141,7 @@ Expected<Reference> reference_of_bytes(const std::string& bytes)
     const bool sound = reader.whole() && rgb.size() == values &&
                        std::all_of(rgb.begin(), rgb.end(), [](float v) { return v >= 0 && v <= 1; });
     if (!sound)
-        return Error{ "makes its decoder answer with nonsense; it is damaged, or made to do harm" };
+        return decoder_nonsense();
     return reference;
 }
 

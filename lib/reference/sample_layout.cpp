@@ -5,6 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include <libraw/libraw_version.h>
+
 #include "base/input_file.h"
 #include "base/json_object.h"
 #include "base/near_names.h"
@@ -164,6 +166,19 @@ Expected<std::optional<SampleLayout>> find_sample_layout(const std::string& path
         return std::optional<SampleLayout>(std::move(*layout));
     }
     return std::optional<SampleLayout>();
+}
+
+Expected<SampleLayout> needed_sample_layout(const std::string& path)
+{
+    auto layout = find_sample_layout(path);
+    if (!layout)
+        return layout.error();
+    if (*layout)
+        return std::move(**layout);
+    return Error{ "is not a RAW file that LibRaw " + std::string(LIBRAW_VERSION_STR) +
+                  " knows by its first bytes. If it holds plain samples, describe them in '" + path +
+                  ".json': {\"width\": 4032, \"height\": 3024, \"cfa\": \"RGGB\", \"bits\": 10, \"black\": 64, "
+                  "\"white\": 1023}" };
 }
 
 } // namespace srisp

@@ -26,6 +26,9 @@ struct SampleLayout {
 /// JSON, unknown or missing keys (the near ones listed), values that cannot be.
 Expected<std::optional<SampleLayout>> find_sample_layout(const std::string& path);
 
+/// The same for a file in which neither we nor LibRaw know a header: an error that says what to do where none exists.
+Expected<SampleLayout> needed_sample_layout(const std::string& path);
+
 /// Reads a description from its text.
 Expected<SampleLayout> parse_sample_layout(const std::string& text, const std::string& path);
 

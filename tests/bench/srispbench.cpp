@@ -19,7 +19,7 @@ struct Part {
 constexpr Part kParts[] = { { "apply", bench_apply },         { "sizes", bench_sizes },
                             { "select", bench_select },       { "reference", bench_reference },
                             { "libraries", bench_libraries }, { "ocio", bench_ocio },
-                            { "commands", bench_commands } };
+                            { "raw_out", bench_raw_out },     { "commands", bench_commands } };
 
 void print(const BenchLine& line)
 {

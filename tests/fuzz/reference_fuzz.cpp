@@ -5,6 +5,7 @@
 #include "base/file_bytes.h"
 #include "damage.h"
 #include "lib/reference/synthetic_dng.h"
+#include "noise/estimate_noise.h"
 #include "reference/decoders.h"
 #include "reference/raw_pixels.h"
 
@@ -29,7 +30,7 @@ std::vector<std::string> seeds_of_kind()
              big.fill(noise).bytes() };
 }
 
-/// Decodes as load_reference does; false if values are not in [0,1].
+/// Decodes as load_reference and reference_noise do; false if values are not in [0,1].
 bool decode(const std::string& bytes, int& decoded)
 {
     // An allocation of the exact size, so that a sanitizer sees every read beyond it.
@@ -43,7 +44,8 @@ bool decode(const std::string& bytes, int& decoded)
     for (const float value : raw_thumbnail(image->pixels).rgb)
         if (!(value >= 0 && value <= 1))
             return false;
-    return true;
+    const auto noise = estimate_noise(image->pixels);
+    return noise || !noise.error().message.empty();
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decodes RAW files for the programs of srisp, so that what these files do to LibRaw is done to nobody else.
+#include "noise/file_noise.h"
 #include "raw_file/decoder_process.h"
 #include "reference/libraw_trial.h"
 #include "reference/raw_reference.h"
@@ -12,6 +13,10 @@ static Expected<std::string> decode(DecoderTask task, const std::string& path)
     if (task == DecoderTask::trial) {
         const Status tried = try_libraw(path);
         return tried ? Expected<std::string>("") : tried.error();
+    }
+    if (task == DecoderTask::noise) {
+        const auto noise = estimate_file_noise(path, false);
+        return noise ? Expected<std::string>(bytes_of_noise(*noise)) : noise.error();
     }
     const auto reference = load_raw(path, false);
     return reference ? Expected<std::string>(bytes_of_reference(*reference)) : reference.error();

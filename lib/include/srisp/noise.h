@@ -9,6 +9,7 @@
 #include <srisp/expected.h>
 #include <srisp/export.h>
 #include <srisp/mosaic.h>
+#include <srisp/reference.h>
 
 namespace srisp {
 
@@ -25,7 +26,13 @@ SRISP_API Status check_noise(const NoiseModel& noise);
 /// another count of figures, or figures that cannot be.
 SRISP_API Expected<NoiseModel> profile_noise(const CameraFacts& facts);
 
-SRISP_API Expected<NoiseModel> reference_noise(const struct Reference& reference, bool isolate = true);
+/// Of a reference: from its NoiseProfile where profile_noise can use it. Else it is estimated from the mosaic in the
+/// file at the reference's path, which is read again (docs/research/noise_estimation.md says how well that does): from
+/// blocks that are flat or slopes, by a robust fit of variance over brightness. `isolate`: as for load_reference.
+/// Errors name the file and say why there is neither: images of three channels (linear EXR and TIFF, LinearRaw), lossy
+/// DNGs, pictures with too few flat blocks or too small a range of brightness, a file that has changed since, and what
+/// load_reference says.
+SRISP_API Expected<NoiseModel> reference_noise(const Reference& reference, bool isolate = true);
 
 /// From darktable's noiseprofiles.json (version 0), which holds a and b of a · v + b for many cameras and ISOs. The
 /// camera is found by make and model, case and spaces ignored, with or without the make before the model. Between two

@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <srisp/noise.h>
 #include <srisp/reference.h>
 
 #include "container/image_file.h"
@@ -84,7 +85,7 @@ TEST_CASE("A reference that was decoded by a program of its own is the one that 
     CHECK((*apart)->facts.white_level == (*here)->facts.white_level);
 }
 
-TEST_CASE("A file that makes LibRaw crash costs a message, as reference and as photo")
+TEST_CASE("A file that makes LibRaw crash costs a message, as reference, as photo, and where a reference was")
 {
     const ScratchFolder folder;
     const std::string path = folder.file("deep.nef", deep_file());
@@ -94,6 +95,14 @@ TEST_CASE("A file that makes LibRaw crash costs a message, as reference and as p
     const auto photo = ImageFile::open(path, OIIO::ImageSpec(), "photo 'x'");
     REQUIRE(!photo);
     CHECK(photo.error().message.rfind("photo 'x': ", 0) == 0);
+    Reference before; // another file of this name
+    before.path = path;
+    before.facts.cfa_pattern = "RGGB";
+    const auto noise = reference_noise(before);
+    REQUIRE(!noise);
+    CHECK(noise.error().message.rfind("reference '" + path + "': no NoiseProfile, and noise cannot be estimated", 0) ==
+          0);
+    CHECK(noise.error().message.find("makes its decoder ") != std::string::npos);
 }
 
 TEST_CASE("What the decoding says of a file comes back word by word")

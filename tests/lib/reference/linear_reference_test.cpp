@@ -46,6 +46,7 @@ OIIO::ImageSpec result_of(Direction direction, OIIO::ImageSpec spec)
 {
     Reference reference;
     reference.facts.make = "Maker";
+    reference.facts.noise_profile = { 1e-4, 2e-7, 3e-4, 4e-7, 5e-4, 6e-7 };
     reference.facts.color_matrices.push_back({ { 1, 0, 0, 0, 2, 0, 0, 0, 3 }, 21 });
     Parameters parameters;
     parameters.white_balance = { 2, 1, 4 };
@@ -173,6 +174,8 @@ TEST_CASE("What srisp unprocessed is a reference, as EXR and as 16-bit TIFF, upr
             continue;
         CHECK(facts.make == "Maker");
         CHECK(facts.as_shot_neutral == std::array<float, 3>{ 0.5f, 1, 0.25f });
+        REQUIRE(facts.noise_profile.size() == 6);
+        CHECK(facts.noise_profile[5] == doctest::Approx(6e-7));
         REQUIRE(facts.color_matrices.size() == 1);
         CHECK(facts.color_matrices[0].xyz_to_camera == std::array<float, 9>{ 1, 0, 0, 0, 2, 0, 0, 0, 3 });
         CHECK(facts.color_matrices[0].illuminant == 21);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // DNGs whose image data are lossy JPEGs, made here with libjpeg.
+#include <srisp/noise.h>
 #include <srisp/reference.h>
 
 #include <algorithm>
@@ -182,8 +183,14 @@ TEST_CASE("A lossy mosaic is read, and a lossy DNG without any curve is taken as
     SyntheticDng dng;
     dng.resize(64, 48).set(50717, T::kShort, { 255 }).set(50714, T::kShort, { 0 });
     tile(dng, 32, 1, [&](int x, int y, int) { return colors[(x & 1) + (y & 1)]; });
-    const Reference reference = loaded(dng);
+    const ScratchFolder folder;
+    const auto file = load_reference(folder.file("lossy.dng", dng.bytes()));
+    REQUIRE(file);
+    const Reference& reference = **file;
     CHECK(reference.facts.cfa_pattern == "RGGB");
+    CHECK(reference_noise(reference).error().message ==
+          "reference '" + reference.path +
+              "': no NoiseProfile, and noise cannot be estimated from it: its lossy compression has taken noise away");
     check_pixel(reference, 128, 128, { 60 / 255.0, 120 / 255.0, 200 / 255.0 }, 0.01);
     CHECK(reference.notes ==
           std::vector<std::string>{ "the lossy DNG states no curve: its values were taken as linear" });
