@@ -13,6 +13,8 @@
 
 namespace srisp {
 
+struct OwnDng;
+
 /// An image file as it really is: pixels come from the reader that its first bytes name, and what that reader does not
 /// hand over is put right here, so that the spec alone says how pixels are to be read, on whatever way they go:
 /// * colour: `ICCProfile`, `CICP`, or `oiio:ColorSpace` (with `chromaticities`), only the one that holds by the rules
@@ -20,6 +22,8 @@ namespace srisp {
 ///   the format; integers whose colour space nothing names are "sRGB";
 /// * `Orientation`, where the format or its EXIF has one;
 /// * alpha: straight where the host asks for that (`oiio:UnassociatedAlpha` in `config`), associated elsewhere;
+/// * a DNG that srisp wrote: linear camera RGB, demosaiced, with its whole record (other RAW files: as OpenImageIO has
+///   them, by default an sRGB picture);
 /// * one picture: of an animation the first frame, of a layered file the merged picture.
 /// A file that breaks off is an error, unless `srisp:allow_partial` in `config` takes what is there.
 class ImageFile final : public OIIO::ImageInput {
@@ -67,6 +71,7 @@ private:
     bool m_widens = false;     ///< from 8 to 16 bits, or colours under little alpha would be lost in that
     bool m_inverts = false;    ///< white is stored as 0
     std::optional<GainMap> m_gain_map;
+    std::shared_ptr<const OwnDng> m_own_dng; ///< null: it is none
     std::vector<std::string> m_notes;
 };
 
