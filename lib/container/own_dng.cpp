@@ -93,6 +93,8 @@ std::optional<std::array<float, 4>> read_levels(const TiffTags& tags, const Tiff
             return {};
     }
     facts.white_level = float(white[0]);
+    if (facts.cfa_pattern.find('B') < facts.cfa_pattern.find('R')) // the first G is in a row of B
+        std::swap(ranges[1], ranges[3]);
     return ranges;
 }
 

@@ -14,7 +14,7 @@ namespace srisp {
 struct OwnDng {
     std::string description; ///< LibRaw cuts it off
     CameraFacts facts;       ///< its as-shot neutral is that of the scene
-    /// Of R, G, B, second G: white above black, in the file's units.
+    /// White above black, in the file's units: of R, G in the rows of R, B, G in the rows of B.
     std::array<float, 4> ranges{};
 };
 
