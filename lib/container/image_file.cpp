@@ -13,7 +13,7 @@
 #include "color/color_encoding.h"
 #include "container/file_description.h"
 #include "container/image_limits.h"
-#include "container/own_dng.h"
+#include "container/own_dng_input.h"
 #include "container/reader_name.h"
 #include "container/size_in_header.h"
 #include "container/webp_input.h"
@@ -101,6 +101,7 @@ std::string name_for_reader(const std::string& path)
 }
 
 struct OpenedInput {
+    std::unique_ptr<OIIO::Filesystem::IOProxy> file; ///< what the input reads; null: by name
     std::unique_ptr<OIIO::ImageInput> input;
     std::shared_ptr<const OwnDng> own_dng; ///< null: it is none
 };
@@ -117,7 +118,7 @@ Expected<OpenedInput> open_input(const std::string& path, OIIO::ImageSpec hints,
         auto input = OIIO::ImageInput::open(name_for_reader(path), &hints);
         if (!input)
             return Error{ OIIO::geterror() };
-        return OpenedInput{ std::move(input), nullptr };
+        return OpenedInput{ nullptr, std::move(input), nullptr };
     }
     if (!std::filesystem::is_regular_file(path, ignored))
         return Error{ std::filesystem::is_directory(path, ignored) ? "is a folder" : kIsNoRegularFile };
@@ -128,10 +129,17 @@ Expected<OpenedInput> open_input(const std::string& path, OIIO::ImageSpec hints,
     if (reader.empty())
         return Error{ "is not an image that OpenImageIO reads" };
     const bool named_raw = reader == kRawReader;
-    const auto own_dng = named_raw || reader == "tiff" ? find_own_dng(path, named_raw) : nullptr;
-    if (own_dng) {
-        reader = kRawReader; // whatever it is called
-        ask_for_camera_rgb(*own_dng, hints);
+    const auto own_dng = named_raw || reader == kTiffReader ? find_own_dng(path, named_raw)
+                                                            : Expected<std::shared_ptr<const OwnDng>>(nullptr);
+    if (!own_dng)
+        return own_dng.error();
+    std::unique_ptr<OIIO::Filesystem::IOProxy> file;
+    if (*own_dng) { // whatever it is called
+        reader = (*own_dng)->is_float ? kTiffReader : kRawReader;
+        if ((*own_dng)->is_float)
+            file = ask_for_main_image(**own_dng, path, hints);
+        else
+            ask_for_camera_rgb(**own_dng, hints);
     }
     if (reader == kRawReader)
         if (Status status = check_raw(path, isolate); !status)
@@ -141,7 +149,7 @@ Expected<OpenedInput> open_input(const std::string& path, OIIO::ImageSpec hints,
     auto input = open_by(reader, name_for_reader(path), hints);
     if (!input)
         return input.error();
-    return OpenedInput{ std::move(*input), own_dng };
+    return OpenedInput{ std::move(file), std::move(*input), *own_dng };
 }
 
 /// Of integers that nothing names, or whose name nobody knows: what an image was is forgotten once a program has made
@@ -196,6 +204,7 @@ Expected<std::unique_ptr<ImageFile>> ImageFile::open(const std::string& path, co
         return Error{ where + ": " + opened.error().message };
     auto file = std::unique_ptr<ImageFile>(new ImageFile(std::move(opened->input), path, config, where));
     file->m_own_dng = std::move(opened->own_dng);
+    file->m_file = std::move(opened->file);
     if (!file->seek_subimage(0, 0))
         return Error{ file->geterror() };
     return file;

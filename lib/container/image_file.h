@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <srisp/expected.h>
 
@@ -63,6 +64,7 @@ private:
     void look_for_gain_map(OIIO::ImageSpec& spec);
     void put_right(void* data, int width, int height) const;
 
+    std::unique_ptr<OIIO::Filesystem::IOProxy> m_file; ///< what `m_inner` reads; null: by name
     std::unique_ptr<OIIO::ImageInput> m_inner;
     std::string m_path, m_where;
     bool m_wants_straight, m_allows_partial, m_applies_gain_map;

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 
-#include <OpenImageIO/imageio.h>
 #include <srisp/camera.h>
+#include <srisp/expected.h>
 
 namespace srisp {
 
@@ -16,17 +17,13 @@ struct OwnDng {
     CameraFacts facts;       ///< its as-shot neutral is that of the scene
     /// White above black, in the file's units: of R, G in the rows of R, B, G in the rows of B.
     std::array<float, 4> ranges{};
+    bool is_float = false;          ///< three channels, 0 is black, 1 white
+    std::uint32_t image_folder = 0; ///< where the tags of the image lie
 };
 
-/// Null: the file is none, or it is damaged, which its reader will say. `named_raw`: its name is that of a RAW file; a
-/// TIFF of another name, which may be huge, is looked into only where it begins as DNGs do.
-std::shared_ptr<const OwnDng> find_own_dng(const std::string& path, bool named_raw);
-
-/// Asks OpenImageIO's reader of RAW files for an unprocessed image: linear camera RGB in [0,1], black subtracted, not
-/// balanced, demosaiced, as stored; in place of all that `hints` ask of it.
-void ask_for_camera_rgb(const OwnDng& dng, OIIO::ImageSpec& hints);
-
-/// Puts into the spec of an image that was asked for so what results say of themselves.
-void describe_own_dng(const OwnDng& dng, OIIO::ImageSpec& spec);
+/// Null: the file is none. `named_raw`: its name is that of a RAW file; a TIFF of another name, which may be huge, is
+/// looked into only where it begins as DNGs do. Errors, without the file's name: filters or levels that are damaged,
+/// those of read_whole_file.
+Expected<std::shared_ptr<const OwnDng>> find_own_dng(const std::string& path, bool named_raw);
 
 } // namespace srisp

@@ -36,6 +36,7 @@ struct Case {
     DngOptions options;
     int orientation = 1;
     bool preview = false;
+    bool floats = false;
 };
 
 std::string record_text()
@@ -46,6 +47,7 @@ std::string record_text()
 std::vector<std::string> write_case(const std::string& path, const Case& of, const std::string& description)
 {
     std::vector<std::uint16_t> samples;
+    std::vector<float> floats;
     for (int y = 0; y < of.height; ++y)
         for (int x = 0; x < of.width; ++x)
             for (int plane = 0; plane < of.planes; ++plane) {
@@ -54,6 +56,7 @@ std::vector<std::string> write_case(const std::string& path, const Case& of, con
                 const int color = of.planes == 3 ? plane : letter == 'R' ? 0 : letter == 'G' ? 1 : 2;
                 const float black = of.black[of.planes == 3 ? std::size_t(plane) : place];
                 const float white = float(of.white[of.planes == 3 ? std::size_t(plane) : 0]);
+                floats.push_back(color_at(x, y, color));
                 samples.push_back(std::uint16_t(std::lround(black + (white - black) * color_at(x, y, color))));
             }
     const std::vector<std::uint8_t> preview(std::size_t(60 * 40 * 3), 128);
@@ -61,7 +64,8 @@ std::vector<std::string> write_case(const std::string& path, const Case& of, con
     image.width = of.width;
     image.height = of.height;
     image.planes = of.planes;
-    image.shorts = samples.data();
+    image.shorts = of.floats ? nullptr : samples.data();
+    image.floats = of.floats ? floats.data() : nullptr;
     image.row_stride = std::ptrdiff_t(of.width) * of.planes;
     image.black = of.black;
     image.white = of.white;
@@ -204,6 +208,48 @@ TEST_CASE("A DNG with srisp's record is one whatever it is called")
     const ScratchFolder folder;
     write_case(folder.path("a.tif"), {}, record_text());
     check_pixels(folder.path("a.tif"), {});
+}
+
+TEST_CASE("A DNG of floats with srisp's record is read as it was written, with a preview or without")
+{
+    const ScratchFolder folder;
+    const std::string path = folder.path("a.dng");
+    for (const bool preview : { false, true })
+        for (const auto compression : { DngCompression::none, DngCompression::deflate })
+            for (const int bits : { 16, 32 }) {
+                Case of;
+                of.width = 301;
+                of.planes = 3;
+                of.floats = true;
+                of.preview = preview;
+                of.black = { 0, 0, 0 };
+                of.white = { 1, 1, 1 };
+                of.orientation = 8;
+                of.options = { compression, bits, DngLayout::standard, 0 };
+                write_case(path, of, record_text());
+                check_pixels(path, of);
+                const OIIO::ImageSpec spec = opened(path)->spec();
+                CHECK(is_unprocessed(spec));
+                CHECK(spec.get_int_attribute("Orientation") == 8);
+                CHECK(spec.get_string_attribute("oiio:ColorSpace") == kCameraColorSpace);
+            }
+}
+
+TEST_CASE("A DNG with srisp's record whose levels cannot be used is refused")
+{
+    const ScratchFolder folder;
+    const std::string path = folder.path("a.dng");
+    Case of;
+    of.planes = 3;
+    of.floats = true;
+    of.black = { 0, 0, 0 };
+    of.white = { 2, 2, 2 };
+    of.options = { DngCompression::none, 32, DngLayout::standard, 0 };
+    write_case(path, of, record_text());
+    const auto file = ImageFile::open(path, {}, "photo 'a.dng'");
+    REQUIRE(!file);
+    CHECK(file.error().message ==
+          "photo 'a.dng': is a DNG that srisp wrote, with filters or levels that its readers cannot use");
 }
 
 TEST_CASE("Hints for RAW files do not change a DNG with srisp's record")
