@@ -13,6 +13,7 @@
 #include "color/color_encoding.h"
 #include "container/file_description.h"
 #include "container/image_limits.h"
+#include "container/own_dng_input.h"
 #include "container/reader_name.h"
 #include "container/size_in_header.h"
 #include "container/webp_input.h"
@@ -99,9 +100,14 @@ std::string name_for_reader(const std::string& path)
     return path.find(':') < path.find('/') ? "./" + path : path;
 }
 
+struct OpenedInput {
+    std::unique_ptr<OIIO::Filesystem::IOProxy> file; ///< what the input reads; null: by name
+    std::unique_ptr<OIIO::ImageInput> input;
+    std::shared_ptr<const OwnDng> own_dng; ///< null: it is none
+};
+
 /// Of a file, or of a name that only a reader understands.
-Expected<std::unique_ptr<OIIO::ImageInput>> open_input(const std::string& path, const OIIO::ImageSpec& hints,
-                                                       bool isolate)
+Expected<OpenedInput> open_input(const std::string& path, OIIO::ImageSpec hints, bool isolate)
 {
     std::error_code ignored;
     if (is_url(path))
@@ -112,22 +118,38 @@ Expected<std::unique_ptr<OIIO::ImageInput>> open_input(const std::string& path, 
         auto input = OIIO::ImageInput::open(name_for_reader(path), &hints);
         if (!input)
             return Error{ OIIO::geterror() };
-        return input;
+        return OpenedInput{ nullptr, std::move(input), nullptr };
     }
     if (!std::filesystem::is_regular_file(path, ignored))
         return Error{ std::filesystem::is_directory(path, ignored) ? "is a folder" : kIsNoRegularFile };
     const auto head = read_head(path, kReaderHeadBytes);
     if (!head)
         return head.error();
-    const std::string reader = reader_name(*head, path);
+    std::string reader = reader_name(*head, path);
     if (reader.empty())
         return Error{ "is not an image that OpenImageIO reads" };
+    const bool named_raw = reader == kRawReader;
+    const auto own_dng = named_raw || reader == kTiffReader ? find_own_dng(path, named_raw)
+                                                            : Expected<std::shared_ptr<const OwnDng>>(nullptr);
+    if (!own_dng)
+        return own_dng.error();
+    std::unique_ptr<OIIO::Filesystem::IOProxy> file;
+    if (*own_dng) { // whatever it is called
+        reader = (*own_dng)->is_float ? kTiffReader : kRawReader;
+        if ((*own_dng)->is_float)
+            file = ask_for_main_image(**own_dng, path, hints);
+        else
+            ask_for_camera_rgb(**own_dng, hints);
+    }
     if (reader == kRawReader)
         if (Status status = check_raw(path, isolate); !status)
             return status.error();
     if (const Status header = check_header(reader, path); !header)
         return header.error();
-    return open_by(reader, name_for_reader(path), hints);
+    auto input = open_by(reader, name_for_reader(path), hints);
+    if (!input)
+        return input.error();
+    return OpenedInput{ std::move(file), std::move(*input), *own_dng };
 }
 
 /// Of integers that nothing names, or whose name nobody knows: what an image was is forgotten once a program has made
@@ -177,10 +199,12 @@ Expected<std::unique_ptr<ImageFile>> ImageFile::open(const std::string& path, co
     // Colour is asked for straight, so that nothing is lost in dark transparent pixels.
     hints.attribute("oiio:UnassociatedAlpha", 1);
 
-    auto inner = open_input(path, hints, config.get_int_attribute("srisp:isolate", 1) != 0);
-    if (!inner)
-        return Error{ where + ": " + inner.error().message };
-    auto file = std::unique_ptr<ImageFile>(new ImageFile(std::move(*inner), path, config, where));
+    auto opened = open_input(path, hints, config.get_int_attribute("srisp:isolate", 1) != 0);
+    if (!opened)
+        return Error{ where + ": " + opened.error().message };
+    auto file = std::unique_ptr<ImageFile>(new ImageFile(std::move(opened->input), path, config, where));
+    file->m_own_dng = std::move(opened->own_dng);
+    file->m_file = std::move(opened->file);
     if (!file->seek_subimage(0, 0))
         return Error{ file->geterror() };
     return file;
@@ -225,7 +249,10 @@ bool ImageFile::seek_subimage(int subimage, int miplevel)
     }
     if (std::strcmp(format_name(), "jpeg") == 0)
         look_for_gain_map(spec);
-    name_color_space(spec);
+    if (m_own_dng)
+        describe_own_dng(*m_own_dng, spec);
+    else
+        name_color_space(spec);
 
     const bool white_is_0 = is_min_is_white(spec);
     if (white_is_0 && (spec.format.is_floating_point() || spec.nchannels > 1)) {

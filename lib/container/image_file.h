@@ -6,12 +6,15 @@
 #include <string>
 #include <vector>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <srisp/expected.h>
 
 #include "gain_map/gain_map.h"
 
 namespace srisp {
+
+struct OwnDng;
 
 /// An image file as it really is: pixels come from the reader that its first bytes name, and what that reader does not
 /// hand over is put right here, so that the spec alone says how pixels are to be read, on whatever way they go:
@@ -20,6 +23,8 @@ namespace srisp {
 ///   the format; integers whose colour space nothing names are "sRGB";
 /// * `Orientation`, where the format or its EXIF has one;
 /// * alpha: straight where the host asks for that (`oiio:UnassociatedAlpha` in `config`), associated elsewhere;
+/// * a DNG that srisp wrote: linear camera RGB, demosaiced, with its whole record (other RAW files: as OpenImageIO has
+///   them, by default an sRGB picture);
 /// * one picture: of an animation the first frame, of a layered file the merged picture.
 /// A file that breaks off is an error, unless `srisp:allow_partial` in `config` takes what is there.
 class ImageFile final : public OIIO::ImageInput {
@@ -59,6 +64,7 @@ private:
     void look_for_gain_map(OIIO::ImageSpec& spec);
     void put_right(void* data, int width, int height) const;
 
+    std::unique_ptr<OIIO::Filesystem::IOProxy> m_file; ///< what `m_inner` reads; null: by name
     std::unique_ptr<OIIO::ImageInput> m_inner;
     std::string m_path, m_where;
     bool m_wants_straight, m_allows_partial, m_applies_gain_map;
@@ -67,6 +73,7 @@ private:
     bool m_widens = false;     ///< from 8 to 16 bits, or colours under little alpha would be lost in that
     bool m_inverts = false;    ///< white is stored as 0
     std::optional<GainMap> m_gain_map;
+    std::shared_ptr<const OwnDng> m_own_dng; ///< null: it is none
     std::vector<std::string> m_notes;
 };
 

@@ -27,8 +27,6 @@ std::string bytes(const char* text, std::size_t size)
     return { text, size };
 }
 
-const char kTiff[] = "tiff";
-
 /// Of formats beside those of file_type: their first bytes could be samples of a sensor as well.
 const std::vector<Magic>& magics()
 {
@@ -81,8 +79,8 @@ std::string reader_name(const std::string& head, const std::string& path)
 {
     const std::string by_ending = reader_of_ending(path);
     if (const FileType type = file_type(head); type.kind != FileKind::headerless)
-        return type.reader == kTiff && by_ending == kRawReader ? kRawReader
-                                                               : type.reader; // most RAW files are TIFFs, too
+        return type.reader == kTiffReader && by_ending == kRawReader ? kRawReader
+                                                                     : type.reader; // most RAW files are TIFFs, too
     for (const Magic& magic : magics())
         if (head.compare(std::min(magic.offset, head.size()), magic.bytes.size(), magic.bytes) == 0)
             return magic.reader;

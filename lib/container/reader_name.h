@@ -9,7 +9,7 @@ namespace srisp {
 constexpr std::size_t kReaderHeadBytes = 132;
 
 /// OpenImageIO's reader of RAW files, which is LibRaw's.
-constexpr char kRawReader[] = "raw";
+constexpr char kRawReader[] = "raw", kTiffReader[] = "tiff";
 
 /// Which of OpenImageIO's readers a file is for: what its first bytes say, or the ending of its name for the few
 /// formats that begin with nothing particular. A reader that gets another format's file may abort or hang. Empty: none.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "camera/dng_camera.h"
 #include "jpeg/jpeg_data.h"
 #include "raw_file/tiff_numbers.h"
 #include "raw_file/tiff_tags.h"

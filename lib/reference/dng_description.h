@@ -13,9 +13,6 @@
 
 namespace srisp {
 
-class TiffTags;
-struct TiffFolder;
-
 /// The image data of a DNG whose strips or tiles are lossy JPEGs of 8 bits, and how they become linear.
 struct LossyDngData {
     struct Block {
@@ -47,10 +44,5 @@ struct DngDescription {
 /// sizes of 0 or beyond 65535, an active area outside the image, filters that are not R, G, B, monochrome, levels that
 /// can't be, image data beyond the end of the file (truncated), layouts and compressions that nothing here decodes.
 Expected<std::optional<DngDescription>> describe_dng(const FileBytes& file);
-
-/// Fills the facts of camera and exposure from a DNG's tags: make, model, orientation, colour matrices (with analog
-/// balance and camera calibration), as-shot neutral, noise profile, ISO, exposure time, f-number. `image`: the folder
-/// of the main image, which may hold some of them.
-void describe_dng_camera(const TiffTags& tags, const TiffFolder& image, CameraFacts& facts);
 
 } // namespace srisp

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/dng_description.h"
+#include "camera/dng_camera.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include "container/own_dng.h"
+
+// How OpenImageIO's readers make of a DNG that srisp wrote the image that it was made from.
+
+namespace srisp {
+
+/// Asks the reader of RAW files for linear camera RGB in [0,1], black subtracted, not balanced, demosaiced, as stored;
+/// in place of all that `hints` ask of it. For integers.
+void ask_for_camera_rgb(const OwnDng& dng, OIIO::ImageSpec& hints);
+
+/// Asks the reader of TIFF files for the RAW image, which may not be the file's first. For floats, which LibRaw does
+/// not read. What is returned must outlive the reader.
+std::unique_ptr<OIIO::Filesystem::IOProxy> ask_for_main_image(const OwnDng& dng, const std::string& path,
+                                                              OIIO::ImageSpec& hints);
+
+/// Puts into the spec of an image that was asked for so what results say of themselves.
+void describe_own_dng(const OwnDng& dng, OIIO::ImageSpec& spec);
+
+} // namespace srisp
