@@ -13,8 +13,8 @@ packages="
     libxxhash-dev nlohmann-json3-dev zlib1g-dev
     openimageio-tools python3-openimageio python3-numpy fonts-dejavu-core
 "
-test_packages="clang-format-14 dcraw libgl1-mesa-dri libimage-exiftool-perl libraw-bin libheif-examples make man-db mount
-    opencolorio-tools python3-pil python3-pyopencolorio xauth xvfb"
+test_packages="clang-format-14 darktable dcraw libgl1-mesa-dri libimage-exiftool-perl libraw-bin libheif-examples make man-db mount
+    opencolorio-tools python3-pil python3-pyopencolorio rawtherapee xauth xvfb"
 trainer_packages="libgloo-dev libopenblas0-openmp libtorch-dev"
 case "$#${1:-}" in
     0) packages="$packages $trainer_packages $test_packages" ;;

@@ -157,6 +157,19 @@ void write_camera(OIIO::ImageSpec& spec, const CameraFacts& facts)
         }
 }
 
+/// What TIFF and PNG keep of it: the parameters in the record.
+static std::array<float, 3> neutral_of_parameters(const OIIO::ImageSpec& spec)
+{
+    const auto record = read_record(spec);
+    if (!record || record->direction != Direction::reverse || record->parameters.empty())
+        return {};
+    const auto parameters = parameters_from_json(record->parameters, "record");
+    if (!parameters)
+        return {};
+    const auto& [red, green, blue] = parameters->white_balance;
+    return { green / red, 1, green / blue };
+}
+
 CameraFacts recorded_camera(const OIIO::ImageSpec& spec)
 {
     CameraFacts facts;
@@ -166,7 +179,8 @@ CameraFacts recorded_camera(const OIIO::ImageSpec& spec)
     for (const auto& [name, value, kept] : kNumbers)
         if (kept)
             facts.*value = spec.get_float_attribute(name);
-    spec.getattribute(attribute::kNeutral, floats(3), facts.as_shot_neutral.data());
+    if (!spec.getattribute(attribute::kNeutral, floats(3), facts.as_shot_neutral.data()))
+        facts.as_shot_neutral = neutral_of_parameters(spec);
     for (const auto& names : kMatrices) {
         CameraFacts::ColorMatrix matrix;
         if (spec.getattribute(names.matrix, OIIO::TypeMatrix33, matrix.xyz_to_camera.data())) {

@@ -64,6 +64,12 @@ Status DngSamples::set_mosaic(const OIIO::ImageSpec& spec)
     if (!phase)
         return phase.error();
     m_phase = MosaicPlace{ *phase, spec.x, spec.y }.phase_here();
+    // An image in a camera's codes that lacks that camera's facts, as files keep few attributes.
+    if (m_facts.white_level <= 0 && values.has_levels()) {
+        m_facts.white_level = std::round(values.white_level * kMostCode);
+        for (std::size_t i = 0; i < 4; ++i)
+            m_facts.black_level[i] = values.black_level[i] * kMostCode;
+    }
     // The reference's codes, unless it has none, or they need more bits than are wanted.
     const float most = float((1 << m_settings.options.bits) - 1);
     const bool codes = m_facts.white_level >= 1 && m_facts.white_level <= kMostCode;

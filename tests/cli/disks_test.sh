@@ -22,7 +22,7 @@ full_disk() {
         [ "$(ls "${output%/*}" | wc -l)" -eq $old ] || { ls -lR full; return 1; }
     done
 }
-for extension in exr tif png jp2 sgi dpx; do
+for extension in exr tif png jp2 sgi dpx dng; do
     check "disk that gets full, $extension" full_disk $extension 0
     check "full disk, $extension" full_disk $extension 32
 done
@@ -35,7 +35,7 @@ done
 read_only() {
     says 1 "" "$tool" "$photo" --srisp-unprocess "$reference" -d uint16 -o "read_only/raw.$1" && [ -s "$scratch/stderr" ]
 }
-for extension in exr tif png jpg; do
+for extension in exr tif png jpg dng; do
     check "read-only folder, $extension" read_only $extension
 done
 parameters_on_full_disk() {
@@ -72,7 +72,7 @@ limited() {
     [ "$(cat "$file")" = old ] && [ "$(ls | wc -l)" -eq "$count" ]
 }
 : >stderr.txt
-for extension in exr tif png jpg jp2 sgi tga bmp dpx; do
+for extension in exr tif png jpg jp2 sgi tga bmp dpx dng; do
     check "a limit for files, $extension" limited raw.$extension "$tool" "$photo" --srisp-unprocess "$reference" -o raw.$extension
 done
 "$tool" "$photo" --srisp-params:model=pointwise "$reference" >look.json
