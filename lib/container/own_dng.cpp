@@ -8,6 +8,7 @@
 #include "base/file_bytes.h"
 #include "base/recently_kept.h"
 #include "camera/dng_camera.h"
+#include "raw_file/dng_head.h"
 #include "raw_file/tiff_numbers.h"
 #include "raw_file/tiff_tags.h"
 #include "record/record.h"
@@ -98,20 +99,6 @@ bool read_levels(const TiffTags& tags, const TiffFolder& image, OwnDng& dng)
     return true;
 }
 
-/// By the first folder of its tags, which srisp, and most programs, write first.
-bool may_be_dng(const std::string& path, bool named_raw)
-{
-    constexpr std::size_t kLook = std::size_t(64) << 10;
-    const auto head = read_head(path, kLook);
-    if (!head)
-        return false;
-    const TiffTags tags(reinterpret_cast<const unsigned char*>(head->data()), head->size());
-    if (tags.folders().empty())
-        return false;
-    const TiffFolder& first = tags.folders()[0];
-    return first.find(kDngVersion) || (first.tags.empty() && named_raw);
-}
-
 using Found = std::shared_ptr<const OwnDng>;
 
 Expected<Found> read_own_dng(const FileBytes& file)
@@ -139,7 +126,8 @@ Expected<Found> read_own_dng(const FileBytes& file)
 
 Expected<Found> find_own_dng(const std::string& path, bool named_raw)
 {
-    if (!may_be_dng(path, named_raw))
+    const DngHead head = dng_head(path);
+    if (head == DngHead::no || (head == DngHead::unknown && !named_raw))
         return Found();
     constexpr std::size_t kMostKept = 64; // a photo is opened several times
     static auto& kept = *new RecentlyKept<std::shared_ptr<const Found>>(kMostKept);
