@@ -203,6 +203,11 @@ Expected<std::unique_ptr<ImageFile>> ImageFile::open(const std::string& path, co
     if (!opened)
         return Error{ where + ": " + opened.error().message };
     auto file = std::unique_ptr<ImageFile>(new ImageFile(std::move(opened->input), path, config, where));
+    if (opened->own_dng && !opened->own_dng->truncation.empty()) {
+        if (!file->m_allows_partial)
+            return Error{ where + ": " + opened->own_dng->truncation };
+        file->m_notes = { opened->own_dng->truncation + "; the rest was left as its reader gives it" };
+    }
     file->m_own_dng = std::move(opened->own_dng);
     file->m_file = std::move(opened->file);
     if (!file->seek_subimage(0, 0))

@@ -7,7 +7,9 @@
 
 #include "base/file_bytes.h"
 #include "base/recently_kept.h"
+#include "base/shown_text.h"
 #include "camera/dng_camera.h"
+#include "raw_file/dng_head.h"
 #include "raw_file/tiff_numbers.h"
 #include "raw_file/tiff_tags.h"
 #include "record/record.h"
@@ -98,18 +100,19 @@ bool read_levels(const TiffTags& tags, const TiffFolder& image, OwnDng& dng)
     return true;
 }
 
-/// By the first folder of its tags, which srisp, and most programs, write first.
-bool may_be_dng(const std::string& path, bool named_raw)
+/// What its image data miss, which LibRaw would not say; empty: nothing.
+std::string find_truncation(const TiffTags& tags, const TiffFolder& image, std::size_t file_size)
 {
-    constexpr std::size_t kLook = std::size_t(64) << 10;
-    const auto head = read_head(path, kLook);
-    if (!head)
-        return false;
-    const TiffTags tags(reinterpret_cast<const unsigned char*>(head->data()), head->size());
-    if (tags.folders().empty())
-        return false;
-    const TiffFolder& first = tags.folders()[0];
-    return first.find(kDngVersion) || (first.tags.empty() && named_raw);
+    const bool tiled = image.find(kTileOffsets) != nullptr;
+    const std::vector<double> offsets = tags.values(image, tiled ? kTileOffsets : kStripOffsets);
+    const std::vector<double> counts = tags.values(image, tiled ? kTileByteCounts : kStripByteCounts);
+    double end = 0;
+    for (std::size_t i = 0; i < std::min(offsets.size(), counts.size()); ++i)
+        end = std::max(end, offsets[i] + counts[i]);
+    if (end <= double(file_size))
+        return "";
+    return "truncated: image data end at byte " + std::to_string(std::uint64_t(end)) + ", the file has " +
+           std::to_string(file_size);
 }
 
 using Found = std::shared_ptr<const OwnDng>;
@@ -132,6 +135,11 @@ Expected<Found> read_own_dng(const FileBytes& file)
     if (!read_filters(tags, *image, dng->facts) || !read_levels(tags, *image, *dng))
         return Error{ "is a DNG that srisp wrote, with filters or levels that its readers cannot use" };
     describe_dng_camera(tags, *image, dng->facts);
+    dng->truncation = find_truncation(tags, *image, file.size);
+    const double width = tags.value(*image, kImageWidth, 0), height = tags.value(*image, kImageLength, 0);
+    if (!dng->is_float && std::min(width, height) < kSmallestLibrawSide)
+        return Error{ "is a DNG of " + shown_number(width) + " x " + shown_number(height) +
+                      " pixels: LibRaw, which reads it, needs " + std::to_string(kSmallestLibrawSide) + " a side" };
     return Found(dng);
 }
 
@@ -139,7 +147,8 @@ Expected<Found> read_own_dng(const FileBytes& file)
 
 Expected<Found> find_own_dng(const std::string& path, bool named_raw)
 {
-    if (!may_be_dng(path, named_raw))
+    const DngHead head = dng_head(path);
+    if (head == DngHead::no || (head == DngHead::unknown && !named_raw))
         return Found();
     constexpr std::size_t kMostKept = 64; // a photo is opened several times
     static auto& kept = *new RecentlyKept<std::shared_ptr<const Found>>(kMostKept);

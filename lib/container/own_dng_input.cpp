@@ -67,6 +67,8 @@ void ask_for_camera_rgb(const OwnDng& dng, OIIO::ImageSpec& hints)
     hints.attribute("raw:use_camera_wb", 0);
     hints.attribute("raw:use_camera_matrix", 0);
     hints.attribute("raw:user_flip", 0);
+    // The others of LibRaw weigh differences of colours, which are right in balanced images only; this one, ratios.
+    hints.attribute("raw:Demosaic", "DHT");
     // LibRaw scales all by one range, that of user_sat, and by a number for each filter over the smallest of these.
     const float widest = *std::max_element(dng.ranges.begin(), dng.ranges.end());
     std::array<float, kFilters> scales{};

@@ -22,9 +22,8 @@ using namespace tiff_tag;
 /// Which programs do not read it, or not rightly.
 void note_readers(const DngImage& image, std::vector<std::string>& notes)
 {
-    constexpr int kSmallestRead = 22;
-    if (std::min(image.width, image.height) < kSmallestRead)
-        notes.push_back("LibRaw and dcraw do not read RAW images under " + std::to_string(kSmallestRead) +
+    if (std::min(image.width, image.height) < kSmallestLibrawSide)
+        notes.push_back("LibRaw and dcraw do not read RAW images under " + std::to_string(kSmallestLibrawSide) +
                         " pixels a side");
     if (image.floats)
         notes.push_back("dcraw, LibRaw 0.20 and RawTherapee 5.9 do not read three channels of floats");

@@ -77,6 +77,7 @@ enum : std::uint16_t {
 
 constexpr int kPhotometricCfa = 32803, kPhotometricLinearRaw = 34892;
 constexpr int kLargestDngSide = 65535;   ///< the limit is that of LibRaw, dcraw and JPEG
+constexpr int kSmallestLibrawSide = 22;  ///< smaller images are none to LibRaw and dcraw
 constexpr int kLargestBlackPattern = 64; ///< a side; real ones have 1, 2 or 6
 
 } // namespace srisp

@@ -49,6 +49,11 @@ struct SensorValues {
     float white_level = 1;
     std::vector<double> noise_profile; ///< shot and read noise that was added to R, G, B; empty: none
 
+    /// Levels as codes of 16 bits: whole ones are whole, though a float holds a part of 65535 with an error.
+    float black_code(std::size_t which) const { return code_of(black_level[which]); }
+    float white_code() const { return code_of(white_level); }
+    static float code_of(float part);
+
     bool has_levels() const { return black_level != std::array<float, 4>{} || white_level != 1; }
 };
 

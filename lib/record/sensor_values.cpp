@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
 #include "base/json_text.h"
 #include "record/record.h"
 
@@ -57,6 +60,12 @@ SensorValues values_of(const std::string& text)
 }
 
 } // namespace
+
+float SensorValues::code_of(float part)
+{
+    const float code = part * 65535, whole = std::round(code);
+    return std::abs(code - whole) < 1e-2f ? whole : code;
+}
 
 void record_sensor_values(OIIO::ImageSpec& spec, const SensorValues& values)
 {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <OpenImageIO/imageio.h>
 #include <srisp/expected.h>
 #include <srisp/reference.h>
 
@@ -45,6 +46,9 @@ struct LinearReference {
     CameraFacts facts;
     std::vector<std::string> notes;
 };
+
+/// Refuses mosaics that srisp wrote as images, which are neither RAW files nor linear ones.
+Status check_no_mosaic(const OIIO::ImageSpec& spec);
 
 /// Reads an EXR (any of half or float; camera RGB in [0,1]) or a TIFF that srisp wrote (16 bits or float) row by row.
 /// `format`: OpenImageIO's name, "openexr" or "tiff". Values are clipped to [0,1]. Errors, without the file's name: no

@@ -12,6 +12,7 @@
 #include <srisp/metadata.h>
 #include <srisp/thumbnail.h>
 
+#include "base/shown_text.h"
 #include "container/image_limits.h"
 #include "record/record.h"
 
@@ -24,6 +25,8 @@ constexpr std::uint64_t kMostBandBytes = std::uint64_t(1) << 30;
 /// Whether this image can be a reference.
 Status check_kind(const OIIO::ImageSpec& spec, bool tiff)
 {
+    if (Status status = check_no_mosaic(spec); !status)
+        return status;
     const std::string encoding = spec.get_string_attribute("oiio:ColorSpace");
     const bool processed = !spec.get_string_attribute(attribute::kSynthetic).empty();
     if (is_unprocessed(spec)) {
@@ -149,6 +152,15 @@ CameraFacts facts_of(const OIIO::ImageSpec& spec)
 }
 
 } // namespace
+
+Status check_no_mosaic(const OIIO::ImageSpec& spec)
+{
+    const std::string filters = recorded_sensor_values(spec).cfa_pattern;
+    if (filters.empty())
+        return {};
+    return Error{ "is a mosaic (" + shown_text(filters) +
+                  ") that srisp wrote as an image; write it as a DNG, which can be a reference" };
+}
 
 Expected<LinearReference> read_linear_reference(const std::string& path, const std::string& format)
 {

@@ -10,6 +10,8 @@
 #include "base/file_bytes.h"
 #include "base/guarded.h"
 #include "base/hashes.h"
+#include "container/image_file.h"
+#include "raw_file/dng_head.h"
 #include "recipe/reference_pattern.h"
 #include "reference/decoders.h"
 #include "reference/raw_reference.h"
@@ -54,6 +56,8 @@ Expected<Reference> load_linear(const std::string& path, const std::string& form
 /// From a TIFF without the extension of a RAW file.
 Expected<Reference> load_tiff(const std::string& path, bool isolate)
 {
+    if (dng_head(path) == DngHead::yes)
+        return load_raw(path, isolate);
     // A TIFF of ours is no RAW whatever LibRaw thinks.
     auto linear = load_linear(path, "tiff");
     if (linear)
@@ -63,6 +67,16 @@ Expected<Reference> load_tiff(const std::string& path, bool isolate)
         return raw;
     const auto file = read_whole_file(path);
     return file && !tiff_raw_name(*file).empty() ? raw : linear;
+}
+
+/// Why a photo is refused.
+Error refuse_photo(const FileType& type, const std::string& path)
+{
+    if (const auto file = ImageFile::open(path, {}, "reference"))
+        if (const Status status = check_no_mosaic((*file)->spec()); !status)
+            return status.error();
+    return Error{ "is a " + type.name +
+                  " file, which is display-encoded and cannot be a reference: give a RAW file (DNG, NEF, CR2, ...)" };
 }
 
 /// From plain samples that a file beside them describes.
@@ -79,10 +93,7 @@ Expected<Reference> load_by_type(const FileType& type, const std::string& path, 
 {
     switch (type.kind) {
     case FileKind::display_encoded:
-        return Error{
-            "is a " + type.name +
-            " file, which is display-encoded and cannot be a reference: give a RAW file (DNG, NEF, CR2, ...)"
-        };
+        return refuse_photo(type, path);
     case FileKind::foveon:
         return Error{ "Foveon sensor (three layers, no mosaic): not supported" };
     case FileKind::exr:

@@ -45,19 +45,19 @@ void append_notes(OIIO::ImageSpec& spec, const std::vector<std::string>& notes)
         spec.attribute(attribute::kNotes, OIIO::Strutil::join(all, "; "));
 }
 
-/// Of a pixel's filter.
-float black_of(const SensorValues& values, BayerPhase phase, int x, int y)
+/// Which of four levels that of a pixel's filter is.
+std::size_t level_of(BayerPhase phase, int x, int y)
 {
     const int color = bayer_color(phase, x, y);
     const bool second_green = color == 1 && (y & 1); // as CameraFacts counts
-    return values.black_level[std::size_t(second_green ? 3 : color)];
+    return std::size_t(second_green ? 3 : color);
 }
 
-/// Levels as parts of the range of 16 bits; whole codes.
-float to_code(float value, float black, float white)
+/// A whole code, as a part of the range of 16 bits.
+float to_code(float value, float black_code, float white_code)
 {
-    const float code = std::round(black * kMostCode + value * (white - black) * kMostCode);
-    return std::clamp(code, 0.0f, white * kMostCode) / kMostCode;
+    const float code = std::clamp(black_code + value * (white_code - black_code), 0.0f, white_code);
+    return std::round(code) / kMostCode;
 }
 
 } // namespace
@@ -72,9 +72,8 @@ struct SensorImage::Piece {
 
 namespace {
 
-/// Gives each colour value, with its black level in `levels`, to `change`.
-template<class Piece, class Change>
-void each_value(const SensorValues& levels, const Piece& piece, int threads, const Change& change)
+/// Gives each colour value, with the number of its black level, to `change`.
+template<class Piece, class Change> void each_value(const Piece& piece, int threads, const Change& change)
 {
     constexpr int kRows = 32; // of a task
     const int colors = std::min(piece.channels, 3);
@@ -83,8 +82,8 @@ void each_value(const SensorValues& levels, const Piece& piece, int threads, con
         for (int y = int(task) * kRows; y < last; ++y) {
             float* const row = piece.out + piece.row_stride * std::size_t(y);
             // Of a mosaic, two kinds of columns.
-            const float black[2] = { black_of(levels, piece.place.phase, piece.place.x, piece.place.y + y),
-                                     black_of(levels, piece.place.phase, piece.place.x + 1, piece.place.y + y) };
+            const std::size_t black[2] = { level_of(piece.place.phase, piece.place.x, piece.place.y + y),
+                                           level_of(piece.place.phase, piece.place.x + 1, piece.place.y + y) };
             for (int x = 0; x < piece.width; ++x)
                 for (int c = 0; c < colors; ++c) {
                     float& value = row[std::ptrdiff_t(x) * piece.channels + c];
@@ -278,9 +277,10 @@ Status SensorImage::read(int subimage, int miplevel, int threads, int x0, int x1
 Status SensorImage::finish(const Level& level, const Piece& piece, int threads) const
 {
     const bool mosaic = piece.channels == 1;
-    if (level.before.has_levels())
-        each_value(level.before, piece, threads,
-                   [&](float value, float black) { return (value - black) / (level.before.white_level - black); });
+    if (const SensorValues& stored = level.before; stored.has_levels())
+        each_value(piece, threads, [&](float value, std::size_t which) {
+            return (value - stored.black_level[which]) / (stored.white_level - stored.black_level[which]);
+        });
     if (level.noise) {
         for (int c = 0; c < (mosaic ? 1 : 3); ++c) {
             NoiseModel noise = *level.noise;
@@ -294,11 +294,15 @@ Status SensorImage::finish(const Level& level, const Piece& piece, int threads) 
             if (const Status added = add_noise(plane, piece.place, noise, seed, threads); !added)
                 return error(added.error().message);
         }
-        each_value(level.after, piece, threads, [](float value, float) { return std::min(value, 1.0f); });
+        each_value(piece, threads, [](float value, std::size_t) { return std::min(value, 1.0f); });
     }
-    if (level.after.has_levels())
-        each_value(level.after, piece, threads,
-                   [&](float value, float black) { return to_code(value, black, level.after.white_level); });
+    if (level.after.has_levels()) {
+        std::array<float, 4> black;
+        for (std::size_t which = 0; which < black.size(); ++which)
+            black[which] = level.after.black_code(which);
+        const float white = level.after.white_code();
+        each_value(piece, threads, [&](float value, std::size_t which) { return to_code(value, black[which], white); });
+    }
     return {};
 }
 

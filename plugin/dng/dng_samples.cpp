@@ -66,9 +66,9 @@ Status DngSamples::set_mosaic(const OIIO::ImageSpec& spec)
     m_phase = MosaicPlace{ *phase, spec.x, spec.y }.phase_here();
     // An image in a camera's codes that lacks that camera's facts, as files keep few attributes.
     if (m_facts.white_level <= 0 && values.has_levels()) {
-        m_facts.white_level = std::round(values.white_level * kMostCode);
+        m_facts.white_level = values.white_code();
         for (std::size_t i = 0; i < 4; ++i)
-            m_facts.black_level[i] = values.black_level[i] * kMostCode;
+            m_facts.black_level[i] = values.black_code(i);
     }
     // The reference's codes, unless it has none, or they need more bits than are wanted.
     const float most = float((1 << m_settings.options.bits) - 1);
@@ -157,7 +157,7 @@ Status DngSamples::put(int row, const float* values)
             const float code = level.black + (values[i] - level.from) * level.scale * level.range;
             const float bounded = std::clamp(code, 0.0f, m_white);
             m_clipped += std::abs(code - bounded) > 0.5f;
-            m_shorts[first + i] = std::uint16_t(bounded + 0.5f);
+            m_shorts[first + i] = std::uint16_t(std::lround(bounded));
         }
     }
     m_missing -= !m_done[std::size_t(row)];

@@ -165,6 +165,11 @@ TEST_CASE("A DNG with srisp's record is read as linear camera RGB, whatever its 
                     of.options = { compression, bits, layout, 0 };
                     cases.push_back(of);
                 }
+    Case fractions; // LibRaw rounds
+    fractions.black = { 64.5f, 63.25f, 64.75f, 64.5f };
+    fractions.white = { 1000, 0, 0 };
+    fractions.options.bits = 10;
+    cases.push_back(fractions);
     for (const Case& of : cases) {
         write_case(path, of, record_text());
         check_pixels(path, of);
@@ -250,6 +255,56 @@ TEST_CASE("A DNG with srisp's record whose levels cannot be used is refused")
     REQUIRE(!file);
     CHECK(file.error().message ==
           "photo 'a.dng': is a DNG that srisp wrote, with filters or levels that its readers cannot use");
+}
+
+TEST_CASE("A DNG with srisp's record that breaks off is an error, unless what is there is wanted")
+{
+    const ScratchFolder folder;
+    const std::string path = folder.path("a.dng");
+    write_case(path, {}, record_text());
+    const std::string whole = bytes_of(path);
+    write_bytes(path, whole.substr(0, whole.size() / 2));
+    OIIO::ImageSpec config;
+    config.attribute("srisp:isolate", 0);
+    const auto file = ImageFile::open(path, config, "photo 'a.dng'");
+    REQUIRE(!file);
+    CHECK(file.error().message.rfind("photo 'a.dng': truncated: image data end at byte ", 0) == 0);
+    config.attribute("srisp:allow_partial", 1);
+    const auto part = ImageFile::open(path, config, "photo 'a.dng'");
+    REQUIRE_MESSAGE(part, (part ? "" : part.error().message));
+    REQUIRE((*part)->reading_notes().size() == 1);
+}
+
+TEST_CASE("A DNG with srisp's record that is too small for LibRaw is refused with its size")
+{
+    const ScratchFolder folder;
+    const std::string path = folder.path("a.dng");
+    Case of;
+    of.width = 30;
+    of.height = 21;
+    write_case(path, of, record_text());
+    const auto file = ImageFile::open(path, {}, "photo 'a.dng'");
+    REQUIRE(!file);
+    CHECK(file.error().message == "photo 'a.dng': is a DNG of 30 x 21 pixels: LibRaw, which reads it, needs 22 a side");
+    of.height = 22;
+    write_case(path, of, record_text());
+    CHECK(opened(path)->spec().height == 22);
+}
+
+TEST_CASE("Harmful tags in a DNG with srisp's record do not reach LibRaw")
+{
+    const ScratchFolder folder;
+    const std::string path = folder.path("a.dng");
+    write_case(path, {}, record_text());
+    std::string bytes = bytes_of(path);
+    const std::size_t next = 8 + 2 + 12 * std::size_t(static_cast<unsigned char>(bytes[8]));
+    bytes.replace(next, 4, little_endian(8)); // the first folder follows itself
+    write_bytes(path, bytes);
+    OIIO::ImageSpec config;
+    config.attribute("srisp:isolate", 0);
+    const auto file = ImageFile::open(path, config, "photo 'a.dng'");
+    REQUIRE(!file);
+    CHECK(file.error().message.find("form a loop") != std::string::npos);
 }
 
 TEST_CASE("Hints for RAW files do not change a DNG with srisp's record")

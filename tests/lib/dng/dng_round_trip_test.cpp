@@ -29,6 +29,50 @@ void check_same(const ScratchFolder& folder, const DngImage& image, const DngOpt
     CHECK(raw.notes.empty());
 }
 
+/// What was decoded, to be written; `raw` must outlive it.
+DngImage image_of(const RawImage& raw)
+{
+    DngImage image;
+    image.width = raw.pixels.width;
+    image.height = raw.pixels.height;
+    image.planes = raw.pixels.channels;
+    image.shorts = raw.pixels.shorts;
+    image.row_stride = raw.pixels.row_stride;
+    image.cfa_pattern = raw.facts.cfa_pattern;
+    image.black_rows = raw.pixels.black.rows;
+    image.black_columns = raw.pixels.black.columns;
+    image.black = raw.pixels.black.pattern;
+    image.white[0] = std::uint32_t(raw.pixels.white[0]);
+    image.facts = raw.facts;
+    return image;
+}
+
+constexpr int kD65 = 21; // EXIF LightSource
+
+/// What is not known is not compared where a DNG must say something.
+void check_same_facts(const CameraFacts& facts, const CameraFacts& expected)
+{
+    CHECK(facts.make == expected.make);
+    CHECK((facts.model == expected.model || expected.model.empty()));
+    CHECK(facts.width == expected.width);
+    CHECK(facts.height == expected.height);
+    CHECK(facts.orientation == expected.orientation);
+    CHECK(facts.cfa_pattern == expected.cfa_pattern);
+    CHECK(facts.black_level == expected.black_level);
+    CHECK(facts.white_level == expected.white_level);
+    CHECK((facts.as_shot_neutral == expected.as_shot_neutral || expected.as_shot_neutral[0] == 0));
+    CHECK(facts.iso == expected.iso);
+    CHECK(facts.exposure_time_s == expected.exposure_time_s);
+    CHECK(facts.f_number == expected.f_number);
+    CHECK(facts.noise_profile == expected.noise_profile);
+    REQUIRE(facts.color_matrices.size() == std::max<std::size_t>(expected.color_matrices.size(), 1));
+    for (std::size_t i = 0; i < expected.color_matrices.size(); ++i) {
+        CHECK(facts.color_matrices[i].xyz_to_camera == expected.color_matrices[i].xyz_to_camera);
+        const int illuminant = expected.color_matrices[i].illuminant;
+        CHECK(facts.color_matrices[i].illuminant == (illuminant ? illuminant : kD65));
+    }
+}
+
 } // namespace
 
 TEST_CASE("Mosaics and LinearRaw are read as written: each size, compression, number of bits and layout")
@@ -180,44 +224,67 @@ TEST_CASE("Real RAW files are read as they were once they are written as DNGs")
 {
     SKIP_WITHOUT_SHARED("data/raw");
     const ScratchFolder folder;
+    const std::string copy = folder.path("a.dng");
     for (const char* name :
-         { "blackmagic_pocket.dng", "canon_eos_d30.crw", "canon_powershot_s40.crw", "gopro_hero6.dng", "nikon_d1.nef",
-           "pi_640x480.dng", "raspberry_pi.dng", "google_pixel7_dark.dng" }) {
+         { "blackmagic_pocket.dng", "canon_eos_d30.crw", "canon_kiss_x4.dng", "canon_powershot_s40.crw",
+           "gopro_hero6.dng", "nikon_d1.nef", "pi_640x480.dng", "raspberry_pi.dng", "google_pixel7_dark.dng" }) {
         CAPTURE(std::string(name));
         const RawImage real = decoded(shared_file("data/raw/" + std::string(name)));
-        if (!real.pixels.black.by_column.empty() || !real.pixels.black.by_row.empty() || real.pixels.cfa.rows != 2)
-            continue; // levels that cannot be written
-        DngImage image;
-        image.width = real.pixels.width;
-        image.height = real.pixels.height;
-        image.planes = real.pixels.channels;
-        image.shorts = real.pixels.shorts;
-        image.row_stride = real.pixels.row_stride;
-        image.cfa_pattern = real.facts.cfa_pattern;
-        image.black_rows = real.pixels.black.rows;
-        image.black_columns = real.pixels.black.columns;
-        image.black = real.pixels.black.pattern;
-        image.white[0] = std::uint32_t(real.pixels.white[0]);
-        image.facts = real.facts;
-        for (const auto compression : { DngCompression::none, DngCompression::lossless }) {
-            written(folder.path("a.dng"), image, { compression, 16, DngLayout::standard, 0 });
-            const RawImage again = decoded(folder.path("a.dng"));
+        REQUIRE(real.pixels.black.by_column.empty()); // could not be written
+        REQUIRE(real.pixels.black.by_row.empty());
+        const DngImage image = image_of(real);
+        for (const auto& [compression, layout] : { std::pair(DngCompression::none, DngLayout::standard),
+                                                   std::pair(DngCompression::lossless, DngLayout::standard),
+                                                   std::pair(DngCompression::lossless, DngLayout::cinema) }) {
+            written(copy, image, { compression, 16, layout, 0 });
+            const RawImage again = decoded(copy);
             CHECK(different_samples(again.pixels, image) == 0);
             CHECK(again.pixels.black.pattern == real.pixels.black.pattern);
-            CHECK(again.facts.white_level == real.facts.white_level);
-            CHECK(again.facts.cfa_pattern == real.facts.cfa_pattern);
-            CHECK(again.facts.orientation == real.facts.orientation);
-            CHECK(again.facts.make == real.facts.make);
-            CHECK((again.facts.model == real.facts.model || real.facts.model.empty()));
-            CHECK((again.facts.as_shot_neutral == real.facts.as_shot_neutral || real.facts.as_shot_neutral[0] == 0));
-            CHECK(again.facts.iso == real.facts.iso);
-            REQUIRE(again.facts.color_matrices.size() == std::max<std::size_t>(real.facts.color_matrices.size(), 1));
-            for (std::size_t i = 0; i < real.facts.color_matrices.size(); ++i) {
-                CHECK(again.facts.color_matrices[i].xyz_to_camera == real.facts.color_matrices[i].xyz_to_camera);
-                CHECK(again.facts.color_matrices[i].illuminant == real.facts.color_matrices[i].illuminant);
-            }
+            check_same_facts(again.facts, real.facts);
+            CHECK(raw_thumbnail(again.pixels).rgb == raw_thumbnail(real.pixels).rgb);
         }
     }
+}
+
+TEST_CASE("A reference of a real camera and its DNG are the same reference")
+{
+    SKIP_WITHOUT_SHARED("data/raw");
+    const ScratchFolder folder;
+    const std::string copy = folder.path("a.dng");
+    for (const char* name : { "blackmagic_pocket.dng", "canon_kiss_x4.dng", "pi_640x480.dng", "raspberry_pi.dng" }) {
+        CAPTURE(std::string(name));
+        const std::string path = shared_file("data/raw/" + std::string(name));
+        const auto before = load_reference(path, false);
+        REQUIRE_MESSAGE(before, (before ? "" : before.error().message));
+        const RawImage real = decoded(path);
+        DngImage image = image_of(real);
+        image.facts = (*before)->facts;
+        image.description = R"({"srisp": "synthetic", "direction": "reverse"})";
+        written(copy, image);
+        const auto after = load_reference(copy, false);
+        REQUIRE_MESSAGE(after, (after ? "" : after.error().message));
+        check_same_facts((*after)->facts, (*before)->facts);
+        CHECK((*after)->thumbnail.rgb == (*before)->thumbnail.rgb);
+    }
+}
+
+TEST_CASE("A DNG with srisp's record is a RAW file to references, whatever it is called")
+{
+    const ScratchFolder folder;
+    for (const auto compression : { DngCompression::none, DngCompression::lossless })
+        for (const int planes : { 1, 3 }) {
+            MadeImage made(64, 48, planes);
+            made.image.description = R"({"srisp": "synthetic", "direction": "reverse"})";
+            made.image.white.fill(40000);
+            written(folder.path("a.tif"), made.image, { compression, 16, DngLayout::cinema, 0 });
+            written(folder.path("a.dng"), made.image, { compression, 16, DngLayout::cinema, 0 });
+            const auto tiff = load_reference(folder.path("a.tif"), false);
+            const auto dng = load_reference(folder.path("a.dng"), false);
+            REQUIRE_MESSAGE(tiff, (tiff ? "" : tiff.error().message));
+            REQUIRE(dng);
+            CHECK((*tiff)->facts.white_level == 40000);
+            CHECK((*tiff)->thumbnail.rgb == (*dng)->thumbnail.rgb);
+        }
 }
 
 TEST_CASE("Images that some programs do not read rightly are written, and that is noted")

@@ -7,6 +7,7 @@
 #include <srisp/reference.h>
 #include <srisp/thumbnail.h>
 
+#include "record/record.h"
 #include "scratch_folder.h"
 #include "shared_files.h"
 
@@ -188,4 +189,23 @@ TEST_CASE("What srisp unprocessed is a reference, as EXR and as 16-bit TIFF, upr
     write(folder.path("f.exr"), result_of(Direction::forward, processed), std::vector<float>(3600, 0.5f));
     CHECK(refusal(folder.path("f.exr")) ==
           "is what srisp made of a RAW-like image, display-encoded and cannot be a reference: give a RAW file");
+}
+
+TEST_CASE("A mosaic that srisp wrote as EXR, TIFF or PNG is no reference, and the message says what would be")
+{
+    const ScratchFolder folder;
+    OIIO::ImageSpec spec = result_of(Direction::reverse, OIIO::ImageSpec(40, 30, 1, OIIO::TypeUInt16));
+    record_sensor_values(spec, { "GRBG", { 0.1f, 0.1f, 0.1f, 0.1f }, 0.9f, {} });
+    for (const char* name : { "a.exr", "a.tif", "a.png" }) {
+        CAPTURE(std::string(name));
+        spec.set_format(std::string(name) == "a.exr" ? OIIO::TypeHalf : OIIO::TypeUInt16);
+        write(folder.path(name), spec, ramp(spec));
+        CHECK(refusal(folder.path(name)) == "is a mosaic (GRBG) that srisp wrote as an image; write it as a DNG, which "
+                                            "can be a reference");
+    }
+    // Only the line in its description is left.
+    OIIO::ImageSpec bare(40, 30, 1, OIIO::TypeUInt16);
+    bare.attribute("ImageDescription", spec.get_string_attribute("ImageDescription"));
+    write(folder.path("bare.tif"), bare, ramp(bare));
+    CHECK(refusal(folder.path("bare.tif")).rfind("is a mosaic (GRBG)", 0) == 0);
 }
