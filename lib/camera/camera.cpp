@@ -12,4 +12,9 @@ const CameraFacts::ColorMatrix* CameraFacts::daylight_matrix() const
     return color_matrices.empty() ? nullptr : &color_matrices.front();
 }
 
+bool CameraFacts::has_integer_levels() const
+{
+    return white_level >= 255 && white_level <= 65535;
+}
+
 } // namespace srisp

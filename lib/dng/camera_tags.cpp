@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/matrix3.h"
 #include "raw_file/tiff_numbers.h"
@@ -33,7 +34,7 @@ bool usable(const ColorMatrix& matrix)
            determinant(matrix.xyz_to_camera) != 0;
 }
 
-/// At most two, of different lights that are known; at least one.
+/// At most two, of different lights that are known; at least one. Daylight's is the last one: dcraw takes that.
 std::vector<ColorMatrix> written_matrices(const CameraFacts& facts, std::vector<std::string>& notes)
 {
     std::vector<ColorMatrix> matrices;
@@ -47,6 +48,8 @@ std::vector<ColorMatrix> written_matrices(const CameraFacts& facts, std::vector<
         else if (matrices.size() < 2 && (matrices.empty() || matrices[0].illuminant != matrix.illuminant))
             matrices.push_back(matrix);
     }
+    if (matrices.size() == 2 && matrices[0].illuminant == kD65)
+        std::swap(matrices[0], matrices[1]);
     if (matrices.empty() && unknown) {
         matrices.push_back({ unknown->xyz_to_camera, kD65 });
         notes.push_back("the light of the camera's colour matrix is not known: D65 was assumed");

@@ -21,11 +21,6 @@ constexpr float kMostCode = 65535;
 // Of a camera that is not known: enough room below black for any noise.
 constexpr float kNeutralBlack = 2048, kNeutralWhite = kMostCode;
 
-bool has_integer_levels(const CameraFacts& sensor)
-{
-    return sensor.white_level >= 1 && sensor.white_level <= kMostCode;
-}
-
 OIIO::ImageSpec one_channel(OIIO::ImageSpec spec)
 {
     spec.nchannels = 1;
@@ -238,7 +233,7 @@ void SensorImage::choose_levels(Level& level, const CameraFacts& sensor, std::ve
     levels.black_level = sensor.black_level;
     levels.white_level = sensor.white_level;
     const bool as_codes = m_recipe.mosaic && m_recipe.levels == Levels::camera;
-    if (!has_integer_levels(sensor) && (as_codes || level.noise)) {
+    if (!sensor.has_integer_levels() && (as_codes || level.noise)) {
         levels.black_level.fill(kNeutralBlack);
         levels.white_level = kNeutralWhite;
         write_camera(level.spec, levels);

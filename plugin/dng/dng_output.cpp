@@ -38,7 +38,9 @@ std::vector<std::uint8_t> preview_of(DngSamples::Picture picture, const CameraFa
 
 int DngOutput::supports(OIIO::string_view feature) const
 {
-    return feature == "random_access"; // rows in any order
+    // Rows in any order. The windows are for oiiotool, which would fill what a format lacks of the display window with
+    // black.
+    return feature == "random_access" || feature == "displaywindow" || feature == "negativeorigin";
 }
 
 bool DngOutput::fail(const std::string& message)
@@ -77,6 +79,7 @@ Status DngOutput::begin(const std::string& name, const OIIO::ImageSpec& spec)
     m_path = name;
     m_settings = *settings;
     m_samples = std::move(*samples);
+    m_is_written = false;
     m_spec = spec;
     m_spec.set_format(OIIO::TypeFloat);
     m_spec.channelformats.clear();
@@ -103,8 +106,11 @@ bool DngOutput::write_scanline(int y, int z, OIIO::TypeDesc format, const void* 
         std::vector<unsigned char> scratch;
         m_spec.auto_stride(xstride, format, m_spec.nchannels);
         const void* const native = to_native_scanline(format, data, xstride, scratch, 0, y, z);
-        const Status put = m_samples->put(row, static_cast<const float*>(native));
-        return put ? put : Status(Error{ "DNG '" + m_path + "': " + put.error().message });
+        const bool was_whole = m_samples->missing() == 0;
+        if (const Status put = m_samples->put(row, static_cast<const float*>(native)); !put)
+            return Error{ "DNG '" + m_path + "': " + put.error().message };
+        m_is_written = false;
+        return was_whole || m_samples->missing() > 0 ? Status() : finish();
     });
 }
 
@@ -112,7 +118,7 @@ bool DngOutput::close()
 {
     if (!m_samples)
         return true;
-    const bool finished = succeeds([&] { return finish(); });
+    const bool finished = m_is_written || succeeds([&] { return finish(); });
     m_samples.reset();
     return finished;
 }
@@ -140,6 +146,7 @@ Status DngOutput::finish()
     const auto written = write_dng(m_path, image, m_settings.options);
     if (!written)
         return written.error();
+    m_is_written = true;
     if (!m_settings.quiet) {
         print_notes(m_samples->notes());
         print_notes(*written);

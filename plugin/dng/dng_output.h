@@ -15,8 +15,9 @@ namespace srisp::plugin {
 
 /// The writer of DNG files: a RAW-like result as a mosaic (one channel) or as LinearRaw (three), with its camera's
 /// facts; any other image of three channels as what a neutral camera would have seen. Its options are attributes
-/// (dng_settings.h). Samples are kept as integers of 16 bits until the file is written, at once, when it is closed: it
-/// is complete or absent.
+/// (dng_settings.h). Samples are kept as integers of 16 bits until all are there; then the file is written at once: it
+/// is complete or absent. That is not left to `close`, whose result many hosts do not look at. The file is the data
+/// window.
 class DngOutput final : public OIIO::ImageOutput {
 public:
     const char* format_name() const override { return "dng"; }
@@ -34,6 +35,7 @@ private:
     std::string m_path;
     DngSettings m_settings;
     std::optional<DngSamples> m_samples; ///< none: not open, or something failed
+    bool m_is_written = false;           ///< as the samples are now
 };
 
 } // namespace srisp::plugin

@@ -72,7 +72,7 @@ Status DngSamples::set_mosaic(const OIIO::ImageSpec& spec)
     }
     // The reference's codes, unless it has none, or they need more bits than are wanted.
     const float most = float((1 << m_settings.options.bits) - 1);
-    const bool codes = m_facts.white_level >= 1 && m_facts.white_level <= kMostCode;
+    const bool codes = m_facts.has_integer_levels();
     const float scale = codes ? std::min(most / m_facts.white_level, 1.0f) : 1;
     m_white = codes ? std::round(m_facts.white_level * scale) : most;
     if (scale < 1)

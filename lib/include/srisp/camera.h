@@ -17,6 +17,8 @@ struct CameraFacts {
     std::string cfa_pattern;   ///< "RGGB", … from the active area's top left; "" for demosaiced (LinearRaw) images
     std::array<float, 4> black_level{}; ///< mean black level of R, G (first green), B, second green
     float white_level = 0;
+    /// Whether the levels are those of samples of 8 to 16 bits: references of floats have a white of 1.
+    SRISP_API bool has_integer_levels() const;
     /// XYZ → camera RGB, row-major 3×3, with the EXIF LightSource code of its calibration illuminant (0: not known).
     struct ColorMatrix {
         std::array<float, 9> xyz_to_camera;

@@ -222,6 +222,21 @@ TEST_CASE("The camera: names, matrices with their lights, as-shot neutral, orien
     CHECK(dng.notes.empty());
 }
 
+TEST_CASE("Of two matrices daylight's comes last, which dcraw takes, whatever order the facts have")
+{
+    MadeImage made(64, 48, 1);
+    const WrittenDng in_order(made.image);
+    std::swap(made.image.facts.color_matrices[0], made.image.facts.color_matrices[1]);
+    const WrittenDng swapped(made.image);
+    for (const WrittenDng* dng : { &in_order, &swapped }) {
+        const TiffFolder& first = dng->folders()[0];
+        dng->check(first, 50778, kShort, { 17 });
+        dng->check(first, 50779, kShort, { 21 });
+        CHECK(dng->tags().values(first, 50721)[0] == doctest::Approx(0.9));
+        CHECK(dng->tags().values(first, 50722)[0] == doctest::Approx(0.7034));
+    }
+}
+
 TEST_CASE("Versions are as low as the contents allow")
 {
     MadeImage made(64, 48, 3);

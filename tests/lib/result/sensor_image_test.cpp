@@ -236,6 +236,20 @@ TEST_CASE("where the reference's filters or levels are not known, what is taken 
     CHECK(recorded_sensor(made.spec).black_level[0] == 2048);
 }
 
+TEST_CASE("levels of a reference of floats, whose white is 1, are not those of a file of integers")
+{
+    OIIO::ImageSpec spec = made_spec(4, 4);
+    CameraFacts facts;
+    facts.white_level = 1;
+    write_camera(spec, facts);
+    Recipe recipe = with_mosaic(Mosaic::rggb);
+    recipe.levels = Levels::camera;
+    const Made made = make(recipe, spec);
+    REQUIRE(made.error == "");
+    CHECK(recorded_sensor_values(made.spec).white_level == 1);
+    CHECK(recorded_sensor_values(made.spec).black_level[0] == 2048 / 65535.0f);
+}
+
 TEST_CASE("what no sensor can see is refused, each with its own message")
 {
     const auto error = [](const Recipe& recipe, const OIIO::ImageSpec& spec) { return make(recipe, spec).error; };

@@ -223,6 +223,58 @@ TEST_CASE("a picture that was never unprocessed becomes the light that it shows"
     CHECK(std::abs(sample(decoded(folder.path("b.dng")), 166 % kWidth, 166 / kWidth, 2) - pixels[500] * 65535) < 2);
 }
 
+TEST_CASE("levels of a reference of floats are not codes of a file of integers")
+{
+    const ScratchFolder folder;
+    OIIO::ImageSpec spec = mosaic_spec();
+    CameraFacts facts;
+    facts.white_level = 1;
+    facts.black_level = {};
+    write_camera(spec, facts);
+    REQUIRE(write(folder.path("a.dng"), spec, ramp(spec)) == "");
+    const RawImage raw = decoded(folder.path("a.dng"));
+    CHECK(raw.facts.white_level == 65535);
+    CHECK(raw.pixels.shorts[39] == std::round(0.039 * 65535));
+}
+
+TEST_CASE("the file is there when the last row is, whatever the host makes of close")
+{
+    const ScratchFolder folder;
+    const OIIO::ImageSpec spec = mosaic_spec();
+    std::vector<float> pixels = ramp(spec);
+    DngOutput output;
+    REQUIRE(output.open(folder.path("a.dng"), spec, OIIO::ImageOutput::Create));
+    REQUIRE(output.write_image(OIIO::TypeFloat, pixels.data()));
+    CHECK(decoded(folder.path("a.dng")).pixels.height == kHeight);
+    pixels[0] = 0.5f; // a row again
+    REQUIRE(output.write_scanline(0, 0, OIIO::TypeFloat, pixels.data(), OIIO::AutoStride));
+    REQUIRE(output.close());
+    CHECK(decoded(folder.path("a.dng")).pixels.shorts[0] == std::round(513 + 0.5 * (16383 - 513)));
+
+    REQUIRE(output.open("/nowhere/a.dng", spec, OIIO::ImageOutput::Create));
+    CHECK(!output.write_image(OIIO::TypeFloat, pixels.data()));
+    CHECK(output.geterror().find("No such file or directory") != std::string::npos);
+}
+
+TEST_CASE("the file is the data window: a crop keeps its size, and hosts fill nothing up")
+{
+    const ScratchFolder folder;
+    OIIO::ImageSpec spec = mosaic_spec("RGGB");
+    spec.x = -3;
+    spec.y = 2;
+    spec.full_width = 400;
+    spec.full_height = 300;
+    REQUIRE(write(folder.path("a.dng"), spec, ramp(spec)) == "");
+    const RawImage raw = decoded(folder.path("a.dng"));
+    CHECK(raw.pixels.width == kWidth);
+    CHECK(raw.facts.cfa_pattern == "GRBG");
+    const DngOutput output;
+    CHECK(output.supports("displaywindow"));
+    CHECK(output.supports("negativeorigin"));
+    for (const char* feature : { "alpha", "nchannels", "tiles", "multiimage", "mipmap", "deepdata", "volumes" })
+        CHECK(!output.supports(feature));
+}
+
 TEST_CASE("rows may come in any order, but all must come")
 {
     const ScratchFolder folder;
