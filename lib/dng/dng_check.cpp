@@ -22,9 +22,8 @@ std::string sides(int width, int height)
 
 Status check_geometry(const DngImage& image)
 {
-    const std::string size = sides(image.width, image.height) + " pixels";
-    if (std::min(image.width, image.height) < kSmallestSide || std::max(image.width, image.height) > kLargestDngSide)
-        return Error{ "image of " + size + ": from 2 to " + std::to_string(kLargestDngSide) + " a side are possible" };
+    if (Status status = check_dng_size(image.width, image.height); !status)
+        return status;
     if (image.planes != 1 && image.planes != 3)
         return Error{ "image of " + std::to_string(image.planes) +
                       " channels: 1 (a mosaic) or 3 (R, G, B) are possible" };
@@ -122,6 +121,14 @@ Status check_row(const DngImage& image, const DngOptions& options, int y)
 }
 
 } // namespace
+
+Status check_dng_size(int width, int height)
+{
+    if (std::min(width, height) >= kSmallestSide && std::max(width, height) <= kLargestDngSide)
+        return {};
+    return Error{ "image of " + sides(width, height) + " pixels: from " + std::to_string(kSmallestSide) + " to " +
+                  std::to_string(kLargestDngSide) + " a side are possible" };
+}
 
 std::uint32_t white_level(const DngImage& image, const DngOptions& options, std::size_t plane)
 {

@@ -10,7 +10,6 @@
 #include "container/image_limits.h"
 #include "dng/dng_check.h"
 #include "dng_xmp.h"
-#include "raw_file/tiff_numbers.h"
 #include "result/kept_results.h"
 
 namespace srisp::plugin {
@@ -63,9 +62,8 @@ Status DngOutput::begin(const std::string& name, const OIIO::ImageSpec& spec)
         return error("a deep image cannot be a RAW file; flatten it first");
     if (spec.depth > 1)
         return error("a volume cannot be a RAW file");
-    if (std::max(spec.width, spec.height) > kLargestDngSide || std::min(spec.width, spec.height) < 2)
-        return error("image of " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
-                     " pixels: from 2 to " + std::to_string(kLargestDngSide) + " a side are possible");
+    if (const Status size = check_dng_size(spec.width, spec.height); !size)
+        return error(size.error().message);
     if (const Status size = check_size(spec); !size)
         return error("cannot be written: it " + size.error().message);
     const auto settings = read_dng_settings(spec);

@@ -36,8 +36,8 @@ bool writes_integers(const std::vector<Step>& steps, std::size_t first);
 /// Whether a step writes a DNG.
 bool writes_dng(const Step& step);
 
-/// Takes the options of a DNG (layout, compression, bits, a float datatype) from its output command, as attributes for its
-/// writer. `depth`: what `-d` says; "": nothing.
+/// Takes the options of a DNG (layout, compression, bits, a float datatype) from its output command, as attributes for
+/// its writer. `depth`: what `-d` says; "": nothing.
 Modifiers take_dng_options(std::vector<std::string>& words, const std::string& depth);
 
 } // namespace srisp::tool
