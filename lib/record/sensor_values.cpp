@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <OpenImageIO/strutil.h>
+
 #include "base/json_text.h"
 #include "record/record.h"
 
@@ -39,6 +41,25 @@ std::vector<double> numbers(const json& line, const char* key, std::size_t count
         for (const json& value : *found)
             values.push_back(value.is_number() ? value.get<double>() : 0.0);
     return values;
+}
+
+/// Of an attribute of any type, as users set them: `count` numbers, or fewer that count for all. Empty: there are none,
+/// or a number of them that does not fit.
+std::vector<float> attribute_numbers(const OIIO::ImageSpec& spec, const char* name, std::size_t count)
+{
+    const OIIO::ParamValue* const attribute = spec.find_attribute(name);
+    std::vector<float> said;
+    if (attribute && attribute->type().basetype == OIIO::TypeDesc::STRING)
+        said = OIIO::Strutil::extract_from_list_string<float>(attribute->get_string());
+    else if (attribute)
+        for (int i = 0; i < int(attribute->type().numelements()) * attribute->type().aggregate; ++i)
+            said.push_back(attribute->get_float_indexed(i));
+    if (said.empty() || count % said.size() != 0)
+        return {};
+    std::vector<float> all;
+    while (all.size() < count)
+        all.insert(all.end(), said.begin(), said.end());
+    return all;
 }
 
 SensorValues values_of(const std::string& text)
@@ -96,11 +117,11 @@ SensorValues recorded_sensor_values(const OIIO::ImageSpec& spec)
     // Attributes win: they can be edited.
     if (const std::string pattern = spec.get_string_attribute(attribute::kCfaPattern); !pattern.empty())
         values.cfa_pattern = pattern;
-    spec.getattribute(attribute::kBlackLevel, floats(4), values.black_level.data());
+    if (const auto black = attribute_numbers(spec, attribute::kBlackLevel, 4); !black.empty())
+        std::copy(black.begin(), black.end(), values.black_level.begin());
     values.white_level = spec.get_float_attribute(attribute::kWhiteLevel, values.white_level);
-    float noise[6];
-    if (spec.getattribute(attribute::kNoiseProfile, floats(6), noise))
-        values.noise_profile.assign(noise, noise + 6);
+    if (const auto noise = attribute_numbers(spec, attribute::kNoiseProfile, 6); !noise.empty())
+        values.noise_profile.assign(noise.begin(), noise.end());
     if (spec.nchannels == 1)
         return values;
     // The rest is that of a mosaic which this was made from.

@@ -225,3 +225,20 @@ TEST_CASE("a photo whose caption holds a nested, doubled or broken record is a p
         CHECK(record->description == caption); // the photo's own words, whatever they are
     }
 }
+
+TEST_CASE("levels that a user sets count in whatever type a host gives them")
+{
+    OIIO::ImageSpec spec(4, 4, 1, OIIO::TypeUInt16);
+    const auto black = [&] { return recorded_sensor_values(spec).black_level; };
+    spec.attribute("unprocess:black_level", 0.125f);
+    CHECK(black() == std::array<float, 4>{ 0.125f, 0.125f, 0.125f, 0.125f });
+    spec.attribute("unprocess:black_level", "0.5,0.25,0.5,0.125");
+    CHECK(black() == std::array<float, 4>{ 0.5f, 0.25f, 0.5f, 0.125f });
+    const int whole[4] = { 0, 1, 0, 1 };
+    spec.attribute("unprocess:black_level", OIIO::TypeDesc(OIIO::TypeDesc::INT, 4), whole);
+    CHECK(black() == std::array<float, 4>{ 0, 1, 0, 1 });
+    spec.attribute("unprocess:black_level", "1,2,3");
+    CHECK(black() == std::array<float, 4>{});
+    spec.attribute("unprocess:noise_profile", "0.5,0.25");
+    CHECK(recorded_sensor_values(spec).noise_profile == std::vector<double>{ 0.5, 0.25, 0.5, 0.25, 0.5, 0.25 });
+}
