@@ -52,8 +52,9 @@ std::vector<float> attribute_numbers(const OIIO::ImageSpec& spec, const char* na
     if (attribute && attribute->type().basetype == OIIO::TypeDesc::STRING)
         said = OIIO::Strutil::extract_from_list_string<float>(attribute->get_string());
     else if (attribute)
-        for (int i = 0; i < int(attribute->type().numelements()) * attribute->type().aggregate; ++i)
-            said.push_back(attribute->get_float_indexed(i));
+        for (std::size_t i = 0; i < attribute->type().basevalues(); ++i)
+            said.push_back(attribute->type().basetype == OIIO::TypeDesc::INT ? float(attribute->get_int_indexed(int(i)))
+                                                                             : attribute->get_float_indexed(int(i)));
     if (said.empty() || count % said.size() != 0)
         return {};
     std::vector<float> all;
