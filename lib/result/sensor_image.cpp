@@ -40,14 +40,6 @@ void append_notes(OIIO::ImageSpec& spec, const std::vector<std::string>& notes)
         spec.attribute(attribute::kNotes, OIIO::Strutil::join(all, "; "));
 }
 
-/// Which of four levels that of a pixel's filter is.
-std::size_t level_of(BayerPhase phase, int x, int y)
-{
-    const int color = bayer_color(phase, x, y);
-    const bool second_green = color == 1 && (y & 1); // as CameraFacts counts
-    return std::size_t(second_green ? 3 : color);
-}
-
 /// A whole code, as a part of the range of 16 bits.
 float to_code(float value, float black_code, float white_code)
 {
@@ -77,8 +69,8 @@ template<class Piece, class Change> void each_value(const Piece& piece, int thre
         for (int y = int(task) * kRows; y < last; ++y) {
             float* const row = piece.out + piece.row_stride * std::size_t(y);
             // Of a mosaic, two kinds of columns.
-            const std::size_t black[2] = { level_of(piece.place.phase, piece.place.x, piece.place.y + y),
-                                           level_of(piece.place.phase, piece.place.x + 1, piece.place.y + y) };
+            const std::size_t black[2] = { bayer_level(piece.place.phase, piece.place.x, piece.place.y + y),
+                                           bayer_level(piece.place.phase, piece.place.x + 1, piece.place.y + y) };
             for (int x = 0; x < piece.width; ++x)
                 for (int c = 0; c < colors; ++c) {
                     float& value = row[std::ptrdiff_t(x) * piece.channels + c];

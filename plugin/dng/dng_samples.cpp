@@ -80,9 +80,7 @@ Status DngSamples::set_mosaic(const OIIO::ImageSpec& spec)
                           std::to_string(m_settings.options.bits) + " bits");
     for (int y = 0; y < 2; ++y)
         for (int x = 0; x < 2; ++x) {
-            const int color = bayer_color(m_phase, x, y);
-            const bool second_green = color == 1 && ((spec.y + y) & 1);
-            const std::size_t which = std::size_t(second_green ? 3 : color);
+            const std::size_t which = bayer_level(*phase, spec.x + x, spec.y + y);
             Level& level = m_levels[std::size_t(y * 2 + x)];
             level.from = values.black_level[which];
             level.scale = 1 / (values.white_level - level.from);

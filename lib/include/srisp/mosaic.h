@@ -37,6 +37,14 @@ inline int bayer_color(BayerPhase phase, int x, int y)
     return ((int(phase) ^ x) & 1) + (((int(phase) >> 1) ^ y) & 1);
 }
 
+/// Which of CameraFacts' four black levels (R, first G, B, second G) is that of such a filter: the second green is the
+/// one in odd rows.
+inline std::size_t bayer_level(BayerPhase phase, int x, int y)
+{
+    const int color = bayer_color(phase, x, y);
+    return color == 1 && (y & 1) ? 3 : std::size_t(color);
+}
+
 /// A view of one plane of float32; it owns nothing.
 template<class Float> struct BasicPlaneView {
     Float* data;             ///< pixel (0, 0)
