@@ -158,7 +158,7 @@ check "SIGKILL leaves nothing of a bake" killed
 
 # Many at once.
 together() {
-    seq 200 | xargs -P 16 -I N sh -c '"$0" "$1" --srisp-params "$2" >together.N.json 2>&1 || { echo "start N failed:"; cat together.N.json; exit 1; }' \
+    seq 200 | xargs -P 16 -n 1 sh -c '"$0" "$1" --srisp-params "$2" >"together.$3.json" 2>&1 || { echo "start $3 failed:"; cat "together.$3.json"; exit 1; }' \
         "$tool" "$photo" "$reference" || return 1
     rm -f together.*.json
     nothing_left
