@@ -204,7 +204,9 @@ struct Parts {
 Status read_settings(ModelData& model, const std::string& where, Parts& parts)
 {
     MetadataReader metadata(model.metadata, where);
-    parts.anchor_network = model.white_stays_white = metadata.one_of("format", { "srisp-1", "srisp-6" }) == "srisp-6";
+    parts.anchor_network = model.white_stays_white = metadata.one_of("format", { "srisp-1", "srisp-7" }) == "srisp-7";
+    if (parts.anchor_network)
+        model.selection_size = std::stoi(metadata.one_of("selection_size", { "64", "96", "128", "256" }));
     model.kernel_size = metadata.one_of("kernel_size", { "3", "1" }) == "1" ? 1 : 3;
     model.dictionary_size = metadata.count("dictionary_size", kMaxDictionarySize);
     model.perceptual_encoder_input = metadata.one_of("encoder_input", { "perceptual", "plain" }) == "perceptual";
@@ -250,6 +252,9 @@ Expected<std::unique_ptr<ModelData>> parse_model(const std::string& bytes, const
             tensors.take_dense("anchor_network.1", 256, 256), tensors.take_dense("anchor_network.2", 256, 256),
             tensors.take_dense("anchor_network.3", 3, 256)
         };
+    if (parts.anchor_network)
+        model->anchor_deviation = { tensors.take_dense("anchor_deviation.0", 32, 256),
+                                    tensors.take_dense("anchor_deviation.1", 1, 32) };
     model->fuse = tensors.take_dense("fuse", 128, 256);
     model->tone = take_selector(tensors, "tone", 3, atoms, kToneLayers);
     model->gamma = take_selector(tensors, "gamma", candidates, atoms, 1);

@@ -15,6 +15,9 @@
 
 namespace srisp {
 
+/// What a model file may say: at how many pixels a side selection works.
+constexpr int kSelectionSizes[] = { 64, 96, 128, 256 };
+
 constexpr int kToneLayers = 4;
 
 /// y = weight · x + bias; weight is [outputs, inputs].
@@ -46,11 +49,12 @@ struct ModelData {
     std::map<std::string, std::string> metadata;
     int kernel_size = 3, dictionary_size = 5;
     bool perceptual_encoder_input = true;
-    bool white_stays_white = false; ///< the least white-balance gain is 1 (srisp-6); else the green one is (srisp-1)
+    int selection_size = 256;       ///< at how many pixels a side selection works; at most a thumbnail's
+    bool white_stays_white = false; ///< the least white-balance gain is 1 (srisp-7); else the green one is (srisp-1)
 
     EncoderWeights source_encoder, reference_encoder;
     std::optional<DenseLayer> source_statistics, reference_statistics, anchor;
-    std::vector<DenseLayer> anchor_network; ///< empty in srisp-1
+    std::vector<DenseLayer> anchor_network, anchor_deviation; ///< empty in srisp-1
     DenseLayer fuse;
     BlockSelector tone, gamma, color, white_balance, gain;
 

@@ -130,7 +130,8 @@ Status Host::save_model(Unprocessor& model, const std::string& path, const std::
         metrics["validation"] = result->details;
     }
     metadata["metrics"] = metrics.dump();
-    return train::save_model(model, recipe.model, path, metadata, recipe.precision);
+    return train::save_model(model, recipe.model, path, metadata, recipe.precision,
+                             result ? result->deviation_factor : 1);
 }
 
 } // namespace srisp::tool

@@ -71,6 +71,30 @@ void fit_network(AnchorNetwork& network, const Rows& rows, const AnchorFit& line
     network.take_plain_inputs(mean, deviation);
 }
 
+/// Learns how large the error of brightness is from pairs that the network did not learn from: on its own it is too
+/// sure. Maximum likelihood of a normal distribution.
+void fit_deviation(AnchorDeviation& deviation, const torch::Tensor& hidden, const torch::Tensor& errors,
+                   std::uint64_t seed)
+{
+    constexpr int kSteps = 1500, kBatchOfErrors = 512;
+    ParameterVector parameters(deviation);
+    OptimizerSettings optimizer;
+    optimizer.rate = 1e-3;
+    optimizer.weight_decay = 0.1;
+    const torch::Tensor none = torch::zeros_like(parameters.values());
+    Adam adam(optimizer, parameters, none, parameters.mask_of(weights_of(deviation)));
+    at::Generator generator = at::detail::createCPUGenerator(seed);
+    const torch::Tensor squares = errors.square();
+    for (int step = 0; step < kSteps; ++step) {
+        const torch::Tensor chosen =
+            torch::randint(hidden.size(0), { kBatchOfErrors }, generator, torch::kLong).to(hidden.device());
+        parameters.gradients().zero_();
+        const torch::Tensor s = deviation.forward(hidden.index_select(0, chosen));
+        (s + 0.5 * squares.index_select(0, chosen) * torch::exp(-2 * s)).mean().backward();
+        adam.update(step, rate_factor(optimizer, step, kSteps), adam.gradient_norm());
+    }
+}
+
 } // namespace
 
 AnchorPairs::AnchorPairs(int wanted, bool for_network)
@@ -166,12 +190,19 @@ AnchorFit fit_anchor(Unprocessor& model, const AnchorPairs& pairs, const AnchorF
     if (correction)
         fit_network(*correction, rows, fit, settings, seed, progress);
 
-    const torch::NoGradGuard no_gradient;
-    const torch::Device model_device = model.parameters().front().device();
-    const torch::Tensor error = line_of(fit, tested.inputs) - tested.log_means();
-    fit.line_deviation = fit.deviation = root_mean_square(error);
-    if (correction)
-        fit.deviation = root_mean_square(error + correction->forward(tested.inputs.to(model_device)).cpu());
+    torch::Tensor error = line_of(fit, tested.inputs) - tested.log_means();
+    fit.line_deviation = root_mean_square(error);
+    if (correction) {
+        const torch::Tensor inputs = tested.inputs.to(model.parameters().front().device());
+        torch::Tensor hidden;
+        {
+            const torch::NoGradGuard no_gradient;
+            hidden = correction->hidden(inputs);
+            error = error.to(inputs.device()) + correction->forward(inputs);
+        }
+        fit_deviation(*network.anchor_deviation(), hidden, error.mean(1), seed);
+    }
+    fit.deviation = root_mean_square(error);
     fit.gain_match_deviation =
         root_mean_square(2 * tested.inputs.slice(1, kStatistics, kStatistics + 3) - 2 - tested.log_means());
     return fit;

@@ -67,7 +67,7 @@ struct AnchorFitSettings {
 };
 
 /// What a fit found. Deviations are root mean squares of the error of ln mean over pairs and channels; the last tenth
-/// of the pairs is not fitted to, and all deviations are measured on it alone.
+/// of the pairs is not fitted to, but for how sure the anchor is; all deviations are measured on it alone.
 struct AnchorFit {
     torch::Tensor weight, bias;      ///< [3, 24], [3]: a linear regression of the RAW's log channel means [method 2]
     double line_deviation = 0;       ///< of the line

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "train/baselines/baselines.h"
+#include "train/evaluation/developed_images.h"
 #include "train/evaluation/measure.h"
 #include "train/evaluation/test_scenes.h"
 #include "train/evaluation/unpaired_evaluation.h"
@@ -23,11 +24,15 @@ struct TestCrops {
 
 /// Adds what `result` says of each crop to the measure of its camera.
 void measure(const TestCrops& crops, const torch::Tensor& result, Measure ScoreGroup::*member,
-             std::vector<ScoreGroup>& by_camera)
+             std::vector<ScoreGroup>& by_camera, const torch::Tensor& log_deviations = {})
 {
     const InterleavedImages results(result), truths(crops.truth);
-    for (std::size_t i = 0; i < crops.camera.size(); ++i)
-        (by_camera[crops.camera[i]].*member).add(results[i], truths[i]);
+    for (std::size_t i = 0; i < crops.camera.size(); ++i) {
+        std::optional<double> log_deviation;
+        if (log_deviations.defined())
+            log_deviation = log_deviations[static_cast<std::int64_t>(i)].item<double>();
+        (by_camera[crops.camera[i]].*member).add(results[i], truths[i], log_deviation);
+    }
 }
 
 /// Images times one gain each, or each channel, that gives them the truth's mean.
@@ -99,16 +104,27 @@ Expected<std::shared_ptr<const EvaluationSet>> EvaluationSet::make(const Evaluat
     GainMatch gain_match;
     auto state = std::make_unique<State>();
     state->settings = settings;
-    const std::vector<TestScenes> sets{ real_test_scenes(settings, pack.raws()),
-                                        simulated_test_scenes(settings, pack) };
     const torch::Tensor matrices = test_matrices(pack, settings.seed);
-    for (const TestScenes& scenes : sets) {
-        if (scenes.camera.empty())
+    const auto add = [&](const TestScenes& scenes, const torch::Tensor& photos, const std::string& rendering) {
+        state->crops.push_back(half_split(scenes, photos, rendering, gain_match, settings.thumbnail_px));
+    };
+    const std::vector<TestScenes> sets{ real_test_scenes(settings, pack.raws(), TestExposure::wide),
+                                        simulated_test_scenes(settings, pack, TestExposure::wide) };
+    const std::vector<TestScenes> camera_sets{ real_test_scenes(settings, pack.raws(), TestExposure::camera),
+                                               simulated_test_scenes(settings, pack, TestExposure::camera) };
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+        if (sets[i].camera.empty())
             continue;
-        state->crops.push_back(half_split(scenes, random_rendering(scenes, matrices, settings.seed), "random",
-                                          gain_match, settings.thumbnail_px));
-        state->crops.push_back(
-            half_split(scenes, fixed_rendering(scenes, matrices), "fixed", gain_match, settings.thumbnail_px));
+        add(sets[i], random_rendering(sets[i], matrices, settings.seed), "random");
+        add(sets[i], fixed_rendering(sets[i], matrices), "fixed");
+        add(camera_sets[i], camera_rendering(camera_sets[i], matrices, settings.seed), "camera");
+    }
+    if (!settings.developed.empty()) {
+        const Expected<DevelopedImages> developed = read_developed_images(settings.developed);
+        if (!developed)
+            return developed.error();
+        for (const auto& [converter, photos] : developed->photos)
+            add(developed->scenes, photos, converter);
     }
     if (state->crops.empty())
         return Error{ "evaluation: the pack has neither real RAW images nor photos and cameras marked for validation" };
@@ -137,8 +153,10 @@ Scores evaluate(Unprocessor& method, const EvaluationSet& set, const std::functi
     int done = 0;
     for (const TestCrops& crops : set.m_state->crops) {
         std::vector<ScoreGroup> groups = crops.by_camera;
-        const auto result = batched_reverse(method, crops.source, crops.reference, set.m_state->settings.thumbnail_px);
-        measure(crops, result, &ScoreGroup::model, groups);
+        torch::Tensor log_deviations;
+        const auto result =
+            batched_reverse(method, crops.source, crops.reference, set.m_state->settings.thumbnail_px, &log_deviations);
+        measure(crops, result, &ScoreGroup::model, groups, log_deviations);
         measure(crops, with_true_means(result, crops.truth, true), &ScoreGroup::model_oracle, groups);
         measure(crops, with_true_means(result, crops.truth, false), &ScoreGroup::model_oracle_gain, groups);
         scores.groups.push_back(total(groups));
@@ -159,13 +177,14 @@ Validation validation_of(const Scores& scores, const std::string& score)
         return group.camera.empty() && (score == "all" || group.set == score);
     };
     Validation result;
-    double highlights = 0;
+    double highlights = 0, log_factor = 0;
     int groups = 0;
     for (const ScoreGroup& group : scores.groups)
         if (counts(group)) {
             result.psnr += group.model.psnr();
             result.angle += group.model.angle.mean();
             highlights += highlight_error(group.model);
+            log_factor += std::log(group.model.deviation_factor());
             ++groups;
         }
     if (groups == 0 && score != "all")
@@ -173,6 +192,8 @@ Validation validation_of(const Scores& scores, const std::string& score)
     result.psnr /= groups;
     result.angle /= groups;
     result.score = result.psnr - result.angle - kHighlightWeight * highlights / groups;
+    if (std::isfinite(log_factor))
+        result.deviation_factor = std::exp(log_factor / groups);
     result.details = score_json(scores);
     return result;
 }

@@ -15,9 +15,10 @@
 namespace srisp::train {
 
 /// Test images, made once: the same crops for every method that is held against them. Made of a pack's real RAW images
-/// and of simulated cameras, photos and lights that are marked for validation; each rendered to a photo twice (random
-/// and fixed, see test_scenes.h) and half split: the left half of the RAW is the reference, the top and the bottom
-/// of the right half are two inputs. Packs hold squares, so halves are twice as high as wide. [P 4.3; method 5]
+/// and of simulated cameras, photos and lights that are marked for validation; each rendered to photos (random,
+/// fixed, camera, see test_scenes.h; by RAW converters, see developed_images.h) and half split: the left half of the
+/// RAW is the reference, the top and the bottom of the right half are two inputs. Packs hold squares, so halves are
+/// twice as high as wide. [P 4.3; method 5]
 class EvaluationSet {
 public:
     /// Errors: nothing in the pack to test on.
@@ -49,15 +50,16 @@ struct ValidationSettings {
     {
         v.choice("score", score, { "real", "simulated", "all" },
                  "the model with the highest mean of PSNR (dB) - angular error (degrees) - 10 x highlight error over "
-                 "these test images, in both renderings, is kept");
+                 "these test images, in all renderings, is kept");
         v.group("set", set);
     }
 };
 
 /// What a validation found.
 struct Validation {
-    double score = 0;           ///< the model with the highest is kept
-    double psnr = 0, angle = 0; ///< for people: dB and degrees
+    double score = 0;            ///< the model with the highest is kept
+    double psnr = 0, angle = 0;  ///< for people: dB and degrees
+    double deviation_factor = 1; ///< by which the deviations that the model tells are too small
     nlohmann::ordered_json details;
 };
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include <srisp/image.h>
 #include <srisp/metrics.h>
 
@@ -32,14 +35,25 @@ struct Measure {
     double psnr_sum = 0; ///< dB
     AngularError angle;
     HighlightErrors highlights;
-    double log_error_sum = 0, log_error_square_sum = 0; ///< of ln(mean green), result − truth
+    double log_error_sum = 0, log_error_square_sum = 0; ///< of ln brightness, result − truth
+    /// Of the crops whose method says how sure it is: the sizes of these errors in its standard deviations, and those
+    /// deviations.
+    std::vector<double> errors_in_deviations, deviations;
 
-    void add(ImageView result, ImageView truth);
+    /// `log_deviation`: ln of the standard deviation of ln brightness that the method tells.
+    void add(ImageView result, ImageView truth, std::optional<double> log_deviation = {});
     Measure& operator+=(const Measure& other);
 
     double psnr() const;           ///< mean of the crops' dB
     double log_error_mean() const; ///< of the brightness: 0.1 is 10 % too bright
     double log_error_deviation() const;
+    /// Share of the errors that are at most this many of the deviations told; NaN where none were.
+    double share_within(double deviations) const;
+    /// What deviations would have to be multiplied by for 68.27 % of the errors to lie within one; NaN where there are
+    /// none.
+    double deviation_factor() const;
+    /// Mean of the deviations told, in EV; NaN where there are none.
+    double mean_deviation_ev() const;
 };
 
 } // namespace srisp::train

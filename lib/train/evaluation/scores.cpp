@@ -38,18 +38,30 @@ std::string line(const std::string& name, const Measure& m, const std::string& r
                 m.highlights.mean(), m.highlights.mean_at_gain(), static_cast<long long>(m.angle.skipped));
 }
 
+/// How sure the model is of the brightness, and whether rightly; empty where it does not tell.
+std::string deviation_line(const Measure& m)
+{
+    if (m.deviations.empty())
+        return "";
+    return text("%-22.22s %.2f EV on average, %.0f %% of the errors within one, %.0f %% within two\n",
+                "  standard deviation", m.mean_deviation_ev(), 100 * m.share_within(1), 100 * m.share_within(2));
+}
+
 std::string model_lines(const std::string& name, const ScoreGroup& group)
 {
     return line(name, group.model, text("%+9.2f  %6.0f %%", group.psnr_gain(), 100 * group.covered()),
                 text("%.2f", group.angle_ratio())) +
-           line("  + true means", group.model_oracle) + line("  + true gain", group.model_oracle_gain);
+           line("  + true means", group.model_oracle) + line("  + true gain", group.model_oracle_gain) +
+           deviation_line(group.model);
 }
 
 std::string group_title(const ScoreGroup& group)
 {
     const std::string where = group.camera.empty() ? text("%d cameras", group.cameras) : group.camera;
-    return text("%s, %s rendering: %d crops of %s\n", group.set == "real" ? "real RAW" : "simulated RAW",
-                group.rendering.c_str(), group.model.crops, where.c_str());
+    const bool developed = group.set == "developed";
+    const char* const set = developed ? "real RAW by " : group.set == "real" ? "real RAW, " : "simulated RAW, ";
+    return text("%s%s%s: %d crops of %s\n", set, group.rendering.c_str(), developed ? "" : " rendering",
+                group.model.crops, where.c_str());
 }
 
 std::string group_table(const NamedScores& scores, std::size_t index)
@@ -141,6 +153,9 @@ Json json(const Measure& m)
              { "skipped_pixels", m.angle.skipped },
              { "log_mean_error", number(m.log_error_mean()) },
              { "log_mean_error_deviation", number(m.log_error_deviation()) },
+             { "deviation_ev", number(m.mean_deviation_ev()) },
+             { "within_one_deviation", number(m.share_within(1)) },
+             { "within_two_deviations", number(m.share_within(2)) },
              { "highlight_error", number(m.highlights.mean()) },
              { "highlight_error_at_gain", number(m.highlights.mean_at_gain()) },
              { "highlight_values", m.highlights.values } };

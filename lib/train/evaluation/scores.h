@@ -16,8 +16,8 @@ namespace srisp::train {
 /// The crops of one test set in one rendering, all or those of one camera: a method beside gain match, and both given
 /// the truth's brightness. [method 5]
 struct ScoreGroup {
-    std::string set;       ///< "real", "simulated"
-    std::string rendering; ///< how the photos were made of the RAW: "random", "fixed"
+    std::string set;       ///< "real", "simulated", "developed"
+    std::string rendering; ///< how the photos were made of the RAW: "random", "fixed", "camera", or a converter
     std::string camera;    ///< empty: all cameras of the set
     int cameras = 1;
     Measure gain_match;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "train/samples/camera_isp.h"
 #include "train/samples/packed_images.h"
 #include "train/samples/random_isp.h"
 #include "train/samples/simulated_camera.h"
@@ -40,7 +41,7 @@ constexpr std::uint64_t kCaptureStream = 0x63617074757265, kSceneStream = 0x7363
 
 /// Method.md section 6, second series, written out so that other defaults change no score. Photos are uneven enough as
 /// they are: gain match's error of ln mean deviates by 0.77 here, by 0.57 on real RAW.
-SimulationSettings test_simulation()
+SimulationSettings test_simulation(const EvaluationSettings& settings, TestExposure exposure)
 {
     SimulationSettings simulation;
     simulation.photo = PhotoInverseSettings();
@@ -57,13 +58,18 @@ SimulationSettings test_simulation()
     simulation.exposure_of = "white";
     simulation.lowest_exposure = 0.06;
     simulation.highest_exposure = 2.5;
+    if (exposure == TestExposure::camera) {
+        simulation.exposure_of = "percentile";
+        simulation.lowest_exposure = settings.camera_exposure_low;
+        simulation.highest_exposure = settings.camera_exposure_high;
+    }
     simulation.lowest_flare = simulation.highest_flare = 0;
     simulation.lowest_black_error = simulation.highest_black_error = 0;
     return simulation;
 }
 
 // Apart from all other draws of the evaluation.
-constexpr std::uint64_t kLightStream = 0x6c69676874, kRenderingStream = 0x72656e646572;
+constexpr std::uint64_t kLightStream = 0x6c69676874, kRenderingStream = 0x72656e646572, kCameraGainStream = 0x6761696e;
 
 /// Method.md section 4 and the second series of section 6, written out so that other defaults change no score.
 RandomIspSettings random_test_isp()
@@ -89,6 +95,36 @@ RandomIspSettings random_test_isp()
     return isp;
 }
 
+/// Likewise: the families of curves that converters and cameras use, and dcraw's way to brighten.
+CameraIspSettings test_camera_isp()
+{
+    CameraIspSettings isp;
+    isp.balance_error = 0.04;
+    isp.cast = 0.15;
+    isp.coolest_cast = -0.3;
+    isp.warmest_cast = 0.6;
+    isp.gain = 1.3;
+    isp.gain_spread = 0.3;
+    isp.auto_brightness = 0.15;
+    isp.other_matrix = 0.3;
+    isp.curved = 0.75;
+    isp.lowest_middle = 0;
+    isp.highest_middle = 1.2;
+    isp.lowest_contrast = 1;
+    isp.highest_contrast = 1.6;
+    isp.rolled_off = 0.5;
+    isp.keeps_hue = 0.4;
+    isp.srgb = 0.55;
+    isp.bt709 = 0.2;
+    isp.lowest_gamma = 1.8;
+    isp.highest_gamma = 2.4;
+    isp.lowest_saturation = 0.85;
+    isp.highest_saturation = 1.4;
+    isp.lowest_style = -0.2;
+    isp.highest_style = 0.5;
+    return isp;
+}
+
 } // namespace
 
 torch::Tensor left_halves(const torch::Tensor& images)
@@ -104,10 +140,13 @@ torch::Tensor right_quarters(const torch::Tensor& images)
     return torch::stack({ top, bottom }, 1).flatten(0, 1).contiguous();
 }
 
-TestScenes real_test_scenes(const EvaluationSettings& settings, const PackedImages& raws)
+TestScenes real_test_scenes(const EvaluationSettings& settings, const PackedImages& raws, TestExposure exposure)
 {
     TestScenes scenes;
     scenes.set = "real";
+    const bool wide = exposure == TestExposure::wide;
+    const double low = std::log(wide ? settings.exposure_low : settings.camera_exposure_low);
+    const double high = std::log(wide ? settings.exposure_high : settings.camera_exposure_high);
     std::vector<torch::Tensor> images, white_balances, colors;
     std::map<std::string, std::vector<std::size_t>> by_camera;
     for (const std::size_t i : whole_images(raws, settings.real_validation_only))
@@ -119,9 +158,7 @@ TestScenes real_test_scenes(const EvaluationSettings& settings, const PackedImag
                 scenes.cameras.push_back(camera);
             scenes.camera.push_back(static_cast<int>(scenes.cameras.size()) - 1);
             Random random(settings.seed, kExposureStream, i);
-            const double level =
-                std::exp(random.uniform(std::log(settings.exposure_low), std::log(settings.exposure_high)));
-            images.push_back(exposed(packed_image(raws, i), level));
+            images.push_back(exposed(packed_image(raws, i), std::exp(random.uniform(low, high))));
             white_balances.push_back(white_balance(raws.entries[i], images.back()));
             colors.push_back(torch::tensor(at::ArrayRef<float>(raws.entries[i].color)).view({ 3, 3 }));
         }
@@ -134,7 +171,7 @@ TestScenes real_test_scenes(const EvaluationSettings& settings, const PackedImag
     return scenes;
 }
 
-TestScenes simulated_test_scenes(const EvaluationSettings& settings, const TrainingPack& pack)
+TestScenes simulated_test_scenes(const EvaluationSettings& settings, const TrainingPack& pack, TestExposure exposure)
 {
     TestScenes scenes;
     scenes.set = "simulated";
@@ -144,13 +181,14 @@ TestScenes simulated_test_scenes(const EvaluationSettings& settings, const Train
         settings.simulated_images == 0)
         return scenes;
     const SimulatedCameras cameras(pack.cameras());
+    const SimulationSettings simulation = test_simulation(settings, exposure);
     std::vector<torch::Tensor> images;
     std::vector<Capture> captures;
     Randoms randoms;
     for (int i = 0; i < settings.simulated_images; ++i) {
         images.push_back(
             packed_image(pack.photos(), photos[std::size_t(i) * photos.size() / settings.simulated_images]));
-        captures.push_back(draw_capture(test_simulation(), cameras, true, Random(settings.seed, kCaptureStream, i)));
+        captures.push_back(draw_capture(simulation, cameras, true, Random(settings.seed, kCaptureStream, i)));
         randoms.emplace_back(settings.seed, kSceneStream, i);
         const std::string& name = pack.cameras().names[captures.back().camera];
         const auto known = std::find(scenes.cameras.begin(), scenes.cameras.end(), name);
@@ -161,7 +199,7 @@ TestScenes simulated_test_scenes(const EvaluationSettings& settings, const Train
     // Crops as large as those of the real RAW images, where there are some.
     const int raw_size = pack.raws().entries.empty() ? pack.photos().size : pack.raws().size;
     const int size = std::min(pack.photos().size, raw_size);
-    scenes.raw = simulate(test_simulation(), area_resize(torch::stack(images), size, size), captures, randoms);
+    scenes.raw = simulate(simulation, area_resize(torch::stack(images), size, size), captures, randoms);
     scenes.white_balance = white_balances(captures);
     scenes.color = color_matrices(captures);
     return scenes;
@@ -192,6 +230,19 @@ torch::Tensor random_rendering(const TestScenes& scenes, const torch::Tensor& ma
 torch::Tensor fixed_rendering(const TestScenes& scenes, const torch::Tensor& matrices)
 {
     return render_fixed(scenes.raw, scenes.white_balance, known_colors(scenes.color, matrices), torch::tensor(0.9));
+}
+
+torch::Tensor camera_rendering(const TestScenes& scenes, const torch::Tensor& matrices, int seed)
+{
+    std::vector<float> gains;
+    Randoms randoms;
+    for (std::size_t n = 0; n < scenes.camera.size(); ++n) {
+        gains.push_back(
+            static_cast<float>(draw_camera_gain(test_camera_isp(), Random(seed, kCameraGainStream, scenes.camera[n]))));
+        randoms.emplace_back(seed, kRenderingStream, n);
+    }
+    return render_camera(test_camera_isp(), scenes.raw, scenes.white_balance, known_colors(scenes.color, matrices),
+                         matrices.unsqueeze(0), torch::tensor(gains), randoms);
 }
 
 torch::Tensor known_colors(const torch::Tensor& colors, const torch::Tensor& matrices)

@@ -32,6 +32,8 @@ struct EvaluationSettings {
     int real_images = 24;
     bool real_validation_only = true;
     double exposure_low = 0.03, exposure_high = 1.25;
+    double camera_exposure_low = 0.15, camera_exposure_high = 1.25;
+    std::string developed;
     int simulated_images = 96;
     int unpaired_photos = 0;
     int unpaired_references = 8;
@@ -44,6 +46,10 @@ struct EvaluationSettings {
         v.flag("real_validation_only", real_validation_only, "real RAW: leave out what is meant for training");
         v.range("exposure", exposure_low, exposure_high, 1e-3, 100,
                 "real RAW: where exposure puts the 98th percentile of an image, log-uniform (1: clipping begins)");
+        v.range("camera_exposure", camera_exposure_low, camera_exposure_high, 1e-3, 100,
+                "the same for the rendering of cameras, which do not make up for an exposure");
+        v.path("developed", developed,
+               "file of real RAW images and what RAW converters made of them, by tests/bench/develop_raws.py");
         v.integer("simulated_images", simulated_images, 0, 100000,
                   "simulated RAW images: validation photos, cameras and lights");
         v.integer("unpaired_photos", unpaired_photos, 0, 100000, "photos for the test without truth; 0: none");
@@ -56,7 +62,7 @@ struct EvaluationSettings {
 
 /// Linear RAW images to be tested on, N of them.
 struct TestScenes {
-    std::string set; ///< "real", "simulated"
+    std::string set; ///< "real", "simulated", "developed"
     std::vector<std::string> cameras;
     std::vector<int> camera;     ///< of each image
     torch::Tensor raw;           ///< [N, 3, S, S], camera RGB in [0, 1], as exposed
@@ -64,12 +70,16 @@ struct TestScenes {
     torch::Tensor color; ///< [N, 3, 3], white-balanced camera RGB → linear sRGB, the camera's own; 0 where not known
 };
 
+/// How test scenes are exposed: for renderings that make up for it, over a wide range; for those of cameras, as one
+/// does who looks at the pictures.
+enum class TestExposure { wide, camera };
+
 /// The pack's real RAW images, equally many of each camera, spread evenly over its images. Stored
 /// images may have lost their exposure (each divided by its own maximum), so each gets a random one.
-TestScenes real_test_scenes(const EvaluationSettings& settings, const PackedImages& raws);
+TestScenes real_test_scenes(const EvaluationSettings& settings, const PackedImages& raws, TestExposure exposure);
 
 /// Photos, cameras and lights that are marked for validation, simulated.
-TestScenes simulated_test_scenes(const EvaluationSettings& settings, const TrainingPack& pack);
+TestScenes simulated_test_scenes(const EvaluationSettings& settings, const TrainingPack& pack, TestExposure exposure);
 
 // How the photos of test scenes are made decides the score, so these never change with what a training is given, and
 // scores of the two are kept apart. [method 5]
@@ -84,6 +94,10 @@ torch::Tensor random_rendering(const TestScenes& scenes, const torch::Tensor& ma
 /// Fixed exposure target, true white balance, the camera's own matrix, sRGB's curve. A camera whose matrix is not known
 /// takes the mean of `matrices`.
 torch::Tensor fixed_rendering(const TestScenes& scenes, const torch::Tensor& matrices);
+
+/// As cameras and RAW converters do: one gain for each camera, one curve for each image whatever it shows, mostly true
+/// white balance and the camera's own matrix.
+torch::Tensor camera_rendering(const TestScenes& scenes, const torch::Tensor& matrices, int seed);
 
 /// The camera's own matrices, and the mean of `matrices` where they are not known, [N, 3, 3].
 torch::Tensor known_colors(const torch::Tensor& colors, const torch::Tensor& matrices);

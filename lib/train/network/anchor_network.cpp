@@ -2,6 +2,7 @@
 #include "train/network/anchor_network.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <ATen/Parallel.h>
 
@@ -38,8 +39,9 @@ template<class Numbers> torch::Tensor numbers_of_each(std::int64_t n, int count,
     return result;
 }
 
-constexpr std::int64_t kHidden = 256;
-constexpr double kFirstOutput = 0.1; // part of the usual scale: the line comes first
+constexpr std::int64_t kHidden = 256, kDeviationHidden = 32;
+constexpr double kFirstDeviation = 0.4; // of ln brightness, about gain match's
+constexpr double kFirstOutput = 0.1;    // part of the usual scale: the line comes first
 
 } // namespace
 
@@ -96,15 +98,12 @@ AnchorNetwork::AnchorNetwork(InitialWeights& initial)
     add(initial.affine({ 3, kHidden }) * kFirstOutput);
 }
 
-torch::Tensor AnchorNetwork::forward(const torch::Tensor& inputs,
-                                     const std::function<torch::Tensor(const torch::Tensor&)>& after_hidden) const
+torch::Tensor AnchorNetwork::hidden(const torch::Tensor& inputs,
+                                    const std::function<torch::Tensor(const torch::Tensor&)>& after_hidden) const
 {
     torch::Tensor x = inputs;
-    for (const std::shared_ptr<Layer>& layer : m_layers) {
-        x = layer->affine(x);
-        if (layer == m_layers.back())
-            break;
-        x = torch::relu(x);
+    for (std::size_t l = 0; l + 1 < m_layers.size(); ++l) {
+        x = torch::relu(m_layers[l]->affine(x));
         if (after_hidden)
             x = after_hidden(x);
     }
@@ -125,6 +124,24 @@ void AnchorNetwork::take_scaled_inputs(const torch::Tensor& mean, const torch::T
     Layer& first = *m_layers.front();
     first.bias.add_(torch::mv(first.weight, mean));
     first.weight.mul_(deviation);
+}
+
+AnchorDeviation::AnchorDeviation(InitialWeights& initial)
+    : m_first(register_module("0", std::make_shared<Layer>(initial.he({ kDeviationHidden, kHidden })))),
+      m_second(register_module("1", std::make_shared<Layer>(initial.affine({ 1, kDeviationHidden }) * kFirstOutput)))
+{
+    scale(kFirstDeviation);
+}
+
+torch::Tensor AnchorDeviation::forward(const torch::Tensor& hidden) const
+{
+    return m_second->affine(torch::relu(m_first->affine(hidden))).squeeze(1);
+}
+
+void AnchorDeviation::scale(double factor)
+{
+    const torch::NoGradGuard no_gradient;
+    m_second->bias.add_(std::log(factor));
 }
 
 } // namespace srisp::train

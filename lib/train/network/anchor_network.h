@@ -38,7 +38,13 @@ public:
     explicit AnchorNetwork(InitialWeights& initial);
     /// `after_hidden` is done to the values of each hidden layer (dropout, while it learns).
     torch::Tensor forward(const torch::Tensor& inputs,
-                          const std::function<torch::Tensor(const torch::Tensor&)>& after_hidden = {}) const;
+                          const std::function<torch::Tensor(const torch::Tensor&)>& after_hidden = {}) const
+    {
+        return m_layers.back()->affine(hidden(inputs, after_hidden));
+    }
+    /// The values of the last hidden layer, [N, 256].
+    torch::Tensor hidden(const torch::Tensor& inputs,
+                         const std::function<torch::Tensor(const torch::Tensor&)>& after_hidden = {}) const;
 
     /// Makes a network that learnt from (inputs − mean) / deviation one that takes the inputs as they are.
     void take_plain_inputs(const torch::Tensor& mean, const torch::Tensor& deviation);
@@ -47,6 +53,19 @@ public:
 
 private:
     std::vector<std::shared_ptr<Layer>> m_layers;
+};
+
+/// How sure the anchor is: ln of the standard deviation of the error of brightness (the mean of R, G, B's log channel
+/// means), of the values of the network's last hidden layer: two affine layers with ReLU between, [N, 256] → [N].
+class AnchorDeviation : public torch::nn::Module {
+public:
+    explicit AnchorDeviation(InitialWeights& initial);
+    torch::Tensor forward(const torch::Tensor& hidden) const;
+    /// Makes all deviations larger by this factor.
+    void scale(double factor);
+
+private:
+    std::shared_ptr<Layer> m_first, m_second;
 };
 
 } // namespace srisp::train

@@ -57,8 +57,10 @@ Network::Network(const ModelSettings& settings, std::uint64_t seed)
     }
     if (m_settings.anchor)
         m_anchor = layer("anchor", 3, kAnchorStatistics);
-    if (m_settings.anchor && m_settings.anchor_network)
+    if (m_settings.anchor && m_settings.anchor_network) {
         m_anchor_network = register_module("anchor_network", std::make_shared<AnchorNetwork>(initial));
+        m_anchor_deviation = register_module("anchor_deviation", std::make_shared<AnchorDeviation>(initial));
+    }
     m_tone = selector("tone", m_settings.tone, 3, kToneLayers);
     m_gamma = selector("gamma", m_settings.gamma, 3 * atoms, 1);
     m_color = selector("color", "dynamic", 3 * atoms, 1);
@@ -180,16 +182,18 @@ private:
         note("after_color", m_running);
     }
 
-    /// The means of the RAW that the anchor expects, [N, 3]. It learns in its fit alone: a batch says too little about
-    /// brightness.
-    torch::Tensor log_means() const
+    /// The means of the RAW that the anchor expects, and how sure it is. It learns in its fit alone: a batch says too
+    /// little about brightness.
+    void expect_means()
     {
         const torch::NoGradGuard no_gradient;
         const torch::Tensor statistics = torch::cat({ m_source_statistics, m_reference_statistics }, 1);
-        const torch::Tensor line = m_network.m_anchor->affine(statistics);
+        m_choice.expected_means = m_network.m_anchor->affine(statistics);
         if (!m_network.m_anchor_network)
-            return line;
-        return line + m_network.m_anchor_network->forward(anchor_inputs(statistics, m_linear_source, m_reference));
+            return;
+        const torch::Tensor inputs = anchor_inputs(statistics, m_linear_source, m_reference);
+        m_choice.expected_means = m_choice.expected_means + m_network.m_anchor_network->forward(inputs);
+        m_choice.log_deviation = m_network.m_anchor_deviation->forward(m_network.m_anchor_network->hidden(inputs));
     }
 
     /// b_c = mean of the running image / predicted mean of the RAW [method 2, anchor]
@@ -197,7 +201,7 @@ private:
     {
         m_choice.base = torch::ones({ m_images, 3 }, m_source.options());
         if (m_network.m_anchor) {
-            m_choice.expected_means = log_means();
+            expect_means();
             m_choice.base = m_running.mean({ 2, 3 }).clamp_min(1e-3) / torch::exp(m_choice.expected_means);
         }
         note("base_gain", m_choice.base);
@@ -285,8 +289,10 @@ std::vector<torch::Tensor> Network::anchor_parameters()
     if (m_anchor)
         all = m_anchor->parameters();
     if (m_anchor_network)
-        for (const torch::Tensor& parameter : m_anchor_network->parameters())
-            all.push_back(parameter);
+        for (const torch::nn::Module* module : { static_cast<torch::nn::Module*>(m_anchor_network.get()),
+                                                 static_cast<torch::nn::Module*>(m_anchor_deviation.get()) })
+            for (const torch::Tensor& parameter : module->parameters())
+                all.push_back(parameter);
     return all;
 }
 

@@ -27,6 +27,7 @@ public:
     /// The atoms but those of the tone map, and what a static selection learns.
     std::vector<torch::Tensor> dictionary_parameters() override;
     std::vector<torch::Tensor> anchor_parameters() override;
+    int selection_size() const override { return m_settings.selection_size; }
     void constrain() override;
 
     /// `reverse` that notes what happens on the way.
@@ -39,6 +40,8 @@ public:
     void set_anchor(const torch::Tensor& weight, const torch::Tensor& bias);
     /// Null where the anchor is a line alone.
     AnchorNetwork* anchor_network() const { return m_anchor_network.get(); }
+    /// How sure the anchor's network is; null where there is none.
+    AnchorDeviation* anchor_deviation() const { return m_anchor_deviation.get(); }
 
 private:
     friend class SelectionRun;
@@ -49,6 +52,7 @@ private:
     std::shared_ptr<Layer> m_source_statistics, m_reference_statistics;    ///< null: no statistics branch
     std::shared_ptr<Layer> m_anchor, m_fuse;
     std::shared_ptr<AnchorNetwork> m_anchor_network;
+    std::shared_ptr<AnchorDeviation> m_anchor_deviation; ///< where there is a network
     std::shared_ptr<BlockSelector> m_tone, m_gamma, m_color, m_white_balance, m_gain;
     std::shared_ptr<Dictionaries> m_dictionaries;
 };

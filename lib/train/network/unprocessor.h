@@ -19,6 +19,7 @@ struct ChosenParameters {
     /// The mixed tone kernels of the four layers, [N, O, I, k, k] and [N, O].
     std::vector<torch::Tensor> tone_reverse_weight, tone_reverse_bias, tone_forward_weight, tone_forward_bias;
     torch::Tensor expected_means; ///< [N, 3], ln of the RAW's channel means as the anchor has them; may be undefined
+    torch::Tensor log_deviation;  ///< [N], ln of the standard deviation of the error of ln brightness; may be undefined
     torch::Tensor base;           ///< [N, 3], the anchor's gains before the dictionaries
 };
 
@@ -30,6 +31,9 @@ public:
     /// Reverse pass; fills `choice` where it is given.
     virtual torch::Tensor reverse(const torch::Tensor& source, const torch::Tensor& reference,
                                   ChosenParameters* choice = nullptr) = 0;
+
+    /// Side of the squares on which parameters are chosen, px; 0: the images as they are.
+    virtual int selection_size() const { return 0; }
 
     /// Reverse pass of `image` with a choice made elsewhere (on thumbnails).
     virtual torch::Tensor apply_reverse(const torch::Tensor& image, const ChosenParameters& choice) = 0;
@@ -49,8 +53,8 @@ public:
 
 /// The reverse pass of any number of images, batch by batch, without gradients, on the device where the method's
 /// parameters are; the result is on the CPU. `thumbnail_px`: side of the squares on which parameters are chosen; 0: the
-/// images as they are.
+/// method's own. `log_deviations` gets those of all images, where the method knows them.
 torch::Tensor batched_reverse(Unprocessor& method, const torch::Tensor& source, const torch::Tensor& reference,
-                              int thumbnail_px);
+                              int thumbnail_px, torch::Tensor* log_deviations = nullptr);
 
 } // namespace srisp::train

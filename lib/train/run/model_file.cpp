@@ -55,7 +55,9 @@ Named with_missing_parts(Named parameters, const ModelSettings& settings)
 void describe_model(const ModelSettings& settings, std::map<std::string, std::string>& metadata)
 {
     const ModelSettings full = full_settings(settings);
-    metadata["format"] = full.anchor_network ? "srisp-6" : "srisp-1";
+    metadata["format"] = full.anchor_network ? "srisp-7" : "srisp-1";
+    if (full.anchor_network)
+        metadata["selection_size"] = std::to_string(full.selection_size);
     metadata["kernel_size"] = full.kernel_size;
     metadata["dictionary_size"] = std::to_string(full.dictionary_size);
     metadata["encoder_input"] = full.encoder_input;
@@ -119,6 +121,7 @@ ModelSettings settings_of(const ModelData& data)
     settings.statistics = data.source_statistics.has_value();
     settings.anchor = data.anchor.has_value();
     settings.anchor_network = !data.anchor_network.empty();
+    settings.selection_size = data.selection_size;
     settings.white_stays_white = data.white_stays_white;
     return settings;
 }
@@ -158,13 +161,15 @@ bool is_srisp_model(const ModelSettings& settings)
 }
 
 Status save_model(const Unprocessor& model, const ModelSettings& settings, const std::string& path,
-                  std::map<std::string, std::string> metadata, const std::string& type)
+                  std::map<std::string, std::string> metadata, const std::string& type, double deviation_factor)
 {
     const std::string where = "model '" + path + "'";
     for (const char* key : { "train_data", "license" })
         if (!metadata.count(key))
             return Error{ where + ": metadata '" + key + "' is missing" };
     Named parameters = parameters_of(model);
+    if (const auto told = parameters.find("anchor_deviation.1.bias"); told != parameters.end())
+        told->second = told->second + std::log(deviation_factor);
     if (is_srisp_model(settings)) {
         parameters = with_missing_parts(std::move(parameters), settings);
         describe_model(settings, metadata);

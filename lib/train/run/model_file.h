@@ -19,13 +19,15 @@ bool is_srisp_model(const ModelSettings& settings);
 /// The method that the settings name; every random number comes from the seed.
 std::shared_ptr<Unprocessor> make_unprocessor(const ModelSettings& settings, std::uint64_t seed);
 
-/// Writes a model made with `settings`: `srisp-1` [method 3] where `is_srisp_model`, with the parts that an ablation
-/// lacks filled in so that it computes the same; else `srisp-baseline-1`, which only this program reads. `type`: "F32"
-/// or "F16" (rounded to nearest). `metadata` must have train_data and license; train_commit, date and metrics are
-/// welcome; what the format itself says (kernel_size, …) is added. Whole or not at all. Errors: what `metadata` lacks,
-/// values that are not finite or do not fit, the disk's own.
+/// Writes a model made with `settings`: `srisp-7`, or `srisp-1` [method 3] without an anchor network, where
+/// `is_srisp_model`, with the parts that an ablation lacks filled in so that it computes the same; else
+/// `srisp-baseline-1`, which only this program reads. `type`: "F32" or "F16" (rounded to nearest). `metadata` must have
+/// train_data and license; train_commit, date and metrics are welcome; what the format itself says (kernel_size, …) is
+/// added. The deviations that the model tells become `deviation_factor` times as large. Whole or not at all. Errors:
+/// what `metadata` lacks, values that are not finite or do not fit, the disk's own.
 Status save_model(const Unprocessor& model, const ModelSettings& settings, const std::string& path,
-                  std::map<std::string, std::string> metadata, const std::string& type = "F32");
+                  std::map<std::string, std::string> metadata, const std::string& type = "F32",
+                  double deviation_factor = 1);
 
 /// A model that was read; `settings` made it.
 struct LoadedModel {

@@ -2,6 +2,7 @@
 #include "train/run/training_recipe.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
 
@@ -10,6 +11,7 @@
 #include "base/json_object.h"
 #include "base/near_names.h"
 #include "base/shown_text.h"
+#include "model/model_data.h"
 #include "model/safetensors.h"
 
 namespace srisp::train {
@@ -83,6 +85,13 @@ Status read_into(TrainingRecipe& recipe, const std::string& path, std::vector<st
     return apply(recipe, *object, where);
 }
 
+/// Of those that a model's format knows; the smaller of two.
+int nearest_selection_size(int size)
+{
+    return *std::min_element(std::begin(kSelectionSizes), std::end(kSelectionSizes),
+                             [size](int a, int b) { return std::abs(a - size) < std::abs(b - size); });
+}
+
 /// Combinations that no single setting forbids.
 Status check(const TrainingRecipe& recipe, const std::string& where)
 {
@@ -116,6 +125,7 @@ Expected<LoadedRecipe> load_recipe(const std::string& name_or_path, const std::v
     }
     if (Status status = check(loaded.recipe, "recipe '" + *path + "'"); !status)
         return status.error();
+    loaded.recipe.model.selection_size = nearest_selection_size(loaded.recipe.data.image_size);
     return loaded;
 }
 

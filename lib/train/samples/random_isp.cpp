@@ -83,25 +83,6 @@ torch::Tensor exposure_gains(const RandomIspSettings& settings, const torch::Ten
     return torch::where(gain > 0, gain, by_picture.clamp(0.5, 25)).view({ -1, 1, 1, 1 });
 }
 
-/// A random convex mix of some of each image's candidates, [N, 3, 3].
-torch::Tensor mix_matrices(const torch::Tensor& candidates, int mixed, const Randoms& randoms)
-{
-    const auto count = static_cast<std::int64_t>(randoms.size()), available = candidates.size(1);
-    auto weights = torch::zeros({ count, available });
-    auto forks = fork(randoms, kMatrix);
-    for (std::int64_t n = 0; n < count; ++n) {
-        // The first numbers of a random order, with weights drawn evenly over the simplex (normalised exponentials).
-        std::vector<std::pair<double, std::int64_t>> order;
-        for (std::int64_t k = 0; k < available; ++k)
-            order.emplace_back(forks[n].uniform(), k);
-        std::sort(order.begin(), order.end());
-        for (std::int64_t k = 0; k < std::min<std::int64_t>(mixed, available); ++k)
-            weights[n][order[k].second] = -std::log(1 - forks[n].uniform()) + 1e-9;
-    }
-    weights = (weights / weights.sum(1, true)).to(candidates.device());
-    return (candidates * weights.unsqueeze(2).unsqueeze(3)).sum(1);
-}
-
 /// Values above `start` approach 1 instead of being cut there, with the slope 1 at the start.
 torch::Tensor roll_off(const torch::Tensor& v, const torch::Tensor& start)
 {
@@ -115,11 +96,6 @@ torch::Tensor add_local_contrast(const torch::Tensor& v, const torch::Tensor& st
     const auto luma = (0.299 * v.select(1, 0) + 0.587 * v.select(1, 1) + 0.114 * v.select(1, 2)).unsqueeze(1);
     const auto coarse = area_resize(luma, 8, 8);
     return v + strength * (luma - enlarge(coarse, v.size(2), v.size(3)));
-}
-
-torch::Tensor eight_bit(const torch::Tensor& v)
-{
-    return (v * 255 + 0.5).floor() / 255;
 }
 
 /// Bends each channel by its own amount.
@@ -160,6 +136,24 @@ torch::Tensor encode(const RandomIspSettings& settings, torch::Tensor v, const R
 
 } // namespace
 
+torch::Tensor mix_matrices(const torch::Tensor& candidates, int mixed, const Randoms& randoms)
+{
+    const auto count = static_cast<std::int64_t>(randoms.size()), available = candidates.size(1);
+    auto weights = torch::zeros({ count, available });
+    Randoms forks = randoms;
+    for (std::int64_t n = 0; n < count; ++n) {
+        // The first numbers of a random order, with weights drawn evenly over the simplex (normalised exponentials).
+        std::vector<std::pair<double, std::int64_t>> order;
+        for (std::int64_t k = 0; k < available; ++k)
+            order.emplace_back(forks[n].uniform(), k);
+        std::sort(order.begin(), order.end());
+        for (std::int64_t k = 0; k < std::min<std::int64_t>(mixed, available); ++k)
+            weights[n][order[k].second] = -std::log(1 - forks[n].uniform()) + 1e-9;
+    }
+    weights = (weights / weights.sum(1, true)).to(candidates.device());
+    return (candidates * weights.unsqueeze(2).unsqueeze(3)).sum(1);
+}
+
 torch::Tensor render_random(const RandomIspSettings& settings, const torch::Tensor& raw,
                             const torch::Tensor& white_balance, const torch::Tensor& matrices, Randoms& randoms)
 {
@@ -173,7 +167,7 @@ torch::Tensor render_random(const RandomIspSettings& settings, const torch::Tens
                                 settings.highest_shoulder, 0.9999);
         v = roll_off(v, start);
     }
-    const auto matrix = mix_matrices(matrices.to(raw.device()), settings.mixed_matrices, randoms);
+    const auto matrix = mix_matrices(matrices.to(raw.device()), settings.mixed_matrices, fork(randoms, kMatrix));
     return encode(settings, transform_colors(matrix, v.clamp(0, 1)), randoms);
 }
 
@@ -184,10 +178,7 @@ torch::Tensor render_fixed(const torch::Tensor& raw, const torch::Tensor& white_
     const auto bright = row_quantile(balanced.mean(1).flatten(1), 0.97).clamp_min(1e-6);
     const auto gain = (target.to(raw.device()).flatten() / bright).clamp(1.0 / 64, 64).view({ -1, 1, 1, 1 });
     const auto linear = transform_colors(matrix, (balanced * gain).clamp(0, 1)).clamp(0, 1);
-    // IEC 61966-2-1
-    const auto encoded =
-        torch::where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear.clamp_min(0.0031308).pow(1 / 2.4) - 0.055);
-    return eight_bit(encoded);
+    return eight_bit(srgb_encoded(linear));
 }
 
 } // namespace srisp::train

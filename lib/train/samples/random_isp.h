@@ -57,6 +57,10 @@ struct RandomIspSettings {
 torch::Tensor render_random(const RandomIspSettings& settings, const torch::Tensor& raw,
                             const torch::Tensor& white_balance, const torch::Tensor& matrices, Randoms& randoms);
 
+/// A random convex mix of `mixed` of each image's candidates [N or 1, K, 3, 3], of all where there are fewer: [N, 3,
+/// 3]. The weights are drawn evenly over the simplex.
+torch::Tensor mix_matrices(const torch::Tensor& candidates, int mixed, const Randoms& randoms);
+
 /// Renders for a fixed target: true white balance, highlights clipped to grey, the channel mean's 97th percentile at
 /// `target` (N numbers or one), the matrix [N, 3, 3], sRGB's curve, 8 bit. The gain is limited to [1/64, 64].
 torch::Tensor render_fixed(const torch::Tensor& raw, const torch::Tensor& white_balance, const torch::Tensor& matrix,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/samples/sample_maker.h"
 
+#include <array>
 #include <cmath>
 
 #include "train/tensors/color.h"
@@ -84,6 +85,9 @@ Status SampleMaker::check() const
     if (m_settings.raw_share > 0 && m_raws.empty())
         return Error{ "raw_share is " + std::to_string(m_settings.raw_share) + ", and the pack has no RAW images" +
                       whose + " whose white balance is known" };
+    if (m_settings.fixed_share + m_settings.camera_share > 1)
+        return Error{ "fixed_share and camera_share are " + std::to_string(m_settings.fixed_share) + " and " +
+                      std::to_string(m_settings.camera_share) + ", at most 1 together" };
     if (m_settings.raw_share < 1 && !m_cameras.has(false))
         return Error{ "the pack has no simulated camera for training" };
     return {};
@@ -195,19 +199,43 @@ SampleMaker::Exposures SampleMaker::expose_scenes(const Randoms& randoms, const 
 
 torch::Tensor SampleMaker::render(const Exposures& exposures, const Randoms& randoms) const
 {
-    auto isp_randoms = fork(randoms, kIsp);
-    const auto random = [&] {
-        return render_random(m_settings.isp, exposures.raw, exposures.white_balance, exposures.others, isp_randoms);
-    };
-    if (m_settings.fixed_share == 0)
-        return random();
+    enum Kind { kFixed, kCamera, kRandom, kKinds };
+    std::array<Indices, kKinds> chosen;
     auto choices = fork(randoms, kRendering);
-    const auto chosen = per_image(choices, m_device, [&](Random& draw) { return draw.chance(m_settings.fixed_share); });
-    const auto target = per_image(choices, m_device, [&](Random& draw) {
-        return draw.uniform(m_settings.lowest_fixed_target, m_settings.highest_fixed_target);
-    });
-    const auto fixed = render_fixed(exposures.raw, exposures.white_balance, exposures.color, target);
-    return m_settings.fixed_share == 1 ? fixed : torch::where(chosen > 0, fixed, random());
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+        const double number = choices[i].uniform();
+        const bool fixed = number < m_settings.fixed_share;
+        const bool camera = !fixed && number < m_settings.fixed_share + m_settings.camera_share;
+        chosen[fixed ? kFixed : (camera ? kCamera : kRandom)].push_back(static_cast<std::int64_t>(i));
+    }
+    auto rendered = torch::empty_like(exposures.raw);
+    for (int kind = 0; kind < kKinds; ++kind) {
+        if (chosen[kind].empty())
+            continue;
+        const auto index = index_tensor(chosen[kind], m_device);
+        const auto pick = [&index](const torch::Tensor& values) {
+            return values.index_select(0, index.to(values.device()));
+        };
+        auto isp_randoms = fork(selected(randoms, chosen[kind]), kIsp);
+        auto some_choices = selected(choices, chosen[kind]);
+        const auto raw = pick(exposures.raw), balance = pick(exposures.white_balance);
+        const auto color = pick(exposures.color), others = pick(exposures.others);
+        torch::Tensor photos;
+        if (kind == kFixed) {
+            const auto target = per_image(some_choices, m_device, [&](Random& draw) {
+                return draw.uniform(m_settings.lowest_fixed_target, m_settings.highest_fixed_target);
+            });
+            photos = render_fixed(raw, balance, color, target);
+        } else if (kind == kCamera) {
+            const auto gains = per_image(some_choices, m_device,
+                                         [&](Random& draw) { return draw_camera_gain(m_settings.camera, draw); });
+            photos = render_camera(m_settings.camera, raw, balance, color, others, gains, isp_randoms);
+        } else {
+            photos = render_random(m_settings.isp, raw, balance, others, isp_randoms);
+        }
+        rendered.index_copy_(0, index, photos);
+    }
+    return rendered;
 }
 
 SampleMaker::Scenes SampleMaker::scenes(std::int64_t step, int first, int count) const

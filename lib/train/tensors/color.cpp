@@ -64,6 +64,16 @@ torch::Tensor row_quantile(const torch::Tensor& rows, double q)
     return row_quantiles(rows, { q }).front();
 }
 
+torch::Tensor srgb_encoded(const torch::Tensor& linear)
+{
+    return torch::where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear.clamp_min(0.0031308).pow(1 / 2.4) - 0.055);
+}
+
+torch::Tensor eight_bit(const torch::Tensor& v)
+{
+    return (v * 255 + 0.5).floor() / 255;
+}
+
 torch::Tensor inverse_smoothstep(const torch::Tensor& v)
 {
     return 0.5 - torch::sin(torch::asin(1 - 2 * v.clamp(0, 1)) / 3);

@@ -37,6 +37,12 @@ inline torch::Tensor smoothstep(const torch::Tensor& v, const torch::Tensor& par
     return v.mul(-2).add_(3).mul_(v).sub_(1).mul_(part).add_(1).mul_(v);
 }
 
+/// sRGB's encoding of linear values in [0, 1]. (IEC 61966-2-1)
+torch::Tensor srgb_encoded(const torch::Tensor& linear);
+
+/// Values in [0, 1] rounded to 8 bits.
+torch::Tensor eight_bit(const torch::Tensor& v);
+
 /// ½ − sin(asin(1 − 2v)/3), the inverse of the curve 3v² − 2v³; v is clamped to [0, 1].
 torch::Tensor inverse_smoothstep(const torch::Tensor& v);
 
