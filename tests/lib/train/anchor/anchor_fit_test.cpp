@@ -232,3 +232,38 @@ TEST_CASE("a model takes another's anchor, of whatever kernel size; not one of a
     REQUIRE_FALSE(status);
     CHECK(status.error().message == "has an anchor of another kind than the recipe's model");
 }
+
+/// Bright references tell the RAW's brightness, dark ones leave it within a factor of e^±1.
+class UnsurePairs : public Samples {
+public:
+    Batch batch(std::int64_t step, int, int pairs, int, int) override
+    {
+        at::Generator generator = at::detail::createCPUGenerator(static_cast<std::uint64_t>(step));
+        Batch batch;
+        batch.source = torch::empty({ pairs, 3, 16, 16 }).uniform_(0.2, 0.9, generator);
+        const torch::Tensor dark = torch::empty({ pairs, 1, 1, 1 }).bernoulli_(0.5, generator);
+        batch.reference = torch::empty({ pairs, 3, 16, 16 }).uniform_(0.2, 0.9, generator) * (1 - 0.8 * dark);
+        const torch::Tensor error = torch::empty({ pairs, 1, 1, 1 }).normal_(0, 1, generator);
+        batch.truth = torch::full({ pairs, 3, 16, 16 }, 0.02) * (error * (0.05 + 0.45 * dark)).exp();
+        return batch;
+    }
+};
+
+TEST_CASE("the anchor says how sure it is: as unsure as it errs, and by what it sees")
+{
+    UnsurePairs pairs;
+    AnchorFitSettings settings;
+    settings.pairs = 6000;
+    settings.steps = 600;
+    Network network({}, 1);
+    REQUIRE(start_anchor(network, pairs, settings, 5));
+    const torch::NoGradGuard no_gradient;
+    const Batch batch = pairs.batch(999, 0, 100, 0, 0);
+    ChosenParameters choice;
+    network.reverse(batch.source, batch.reference, &choice);
+    REQUIRE(choice.log_deviation.sizes() == at::IntArrayRef({ 100 }));
+    const torch::Tensor deviations = choice.log_deviation.exp();
+    const torch::Tensor dark = batch.reference.mean(at::IntArrayRef{ 1, 2, 3 }) < 0.3;
+    CHECK(deviations.masked_select(dark).mean().item<double>() == doctest::Approx(0.5).epsilon(0.15));
+    CHECK(deviations.masked_select(dark.logical_not()).mean().item<double>() < 0.1);
+}

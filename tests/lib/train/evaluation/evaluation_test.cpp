@@ -105,8 +105,8 @@ TEST_CASE("gain match, evaluated as a method, scores as the gain match beside it
 {
     GainMatch method;
     const Scores scores = evaluate(method, *make_set(small_settings()));
-    // Real: two cameras; simulated: one; both in two renderings, and all cameras of each.
-    CHECK(scores.groups.size() == 4 + 2 + 2 + 1 + 1);
+    // Real: two cameras; simulated: one; both in three renderings, and all cameras of each.
+    CHECK(scores.groups.size() == 3 * (2 + 1) + 3 * (1 + 1));
     for (const ScoreGroup& group : scores.groups) {
         INFO(group.set, ", ", group.rendering, ", ", group.camera);
         CHECK(group.psnr_gain() == 0);
@@ -144,6 +144,49 @@ TEST_CASE("the same settings give the same scores, another seed others")
     CHECK(evaluate(method, *make_set(settings)).find("real", "random")->model.psnr() == first);
     settings.seed = 2;
     CHECK(evaluate(method, *make_set(settings)).find("real", "random")->model.psnr() != first);
+}
+
+/// Gain match that says how sure it is: of ln brightness, 0.5.
+struct SureGainMatch : DarkGainMatch {
+    torch::Tensor reverse(const torch::Tensor& source, const torch::Tensor& reference,
+                          ChosenParameters* choice) override
+    {
+        auto result = DarkGainMatch::reverse(source, reference, choice);
+        choice->log_deviation = torch::full({ source.size(0) }, std::log(0.5));
+        return result;
+    }
+    int selection_size() const override { return m_size; }
+    int m_size = 0;
+};
+
+TEST_CASE("how sure a method says it is is held against its errors")
+{
+    SureGainMatch method;
+    const Scores scores = evaluate(method, *make_set(small_settings()));
+    const Measure& model = scores.find("real", "random")->model;
+    REQUIRE(model.deviations.size() == 12);
+    CHECK(model.mean_deviation_ev() == doctest::Approx(0.5 / std::log(2.0)));
+    // Scaled so that 68 % of the errors lie within one deviation, they do.
+    const double factor = model.deviation_factor();
+    CHECK(model.share_within(factor * 1.0001) == doctest::Approx(0.6827).epsilon(0.13));
+    CHECK(model.share_within(factor * 0.9) < model.share_within(factor * 1.0001));
+    CHECK(model.share_within(1e9) == 1);
+    CHECK(std::isnan(scores.find("real", "random")->gain_match.deviation_factor()));
+    const Validation validation = validation_of(scores, "real");
+    double logs = 0;
+    for (const char* rendering : { "random", "fixed", "camera" })
+        logs += std::log(scores.find("real", rendering)->model.deviation_factor()) / 3;
+    CHECK(validation.deviation_factor == doctest::Approx(std::exp(logs)));
+    GainMatch silent;
+    CHECK(validation_of(evaluate(silent, *make_set(small_settings())), "real").deviation_factor == 1);
+}
+
+TEST_CASE("without thumbnail_px parameters are chosen at the method's own size")
+{
+    SureGainMatch method;
+    method.m_size = 32;
+    evaluate(method, *make_set(small_settings()));
+    CHECK(method.thumbnail_width == 32);
 }
 
 TEST_CASE("thumbnail_px says on how large an image parameters are chosen; what is scored is the crop")

@@ -11,6 +11,7 @@
 #include "shared_files.h"
 #include "train/network/network.h"
 #include "train/run/model_file.h"
+#include "train/tensors/resize.h"
 
 using namespace srisp;
 using namespace srisp::train;
@@ -53,6 +54,9 @@ void check_choice(const Parameters& parameters, const ChosenParameters& choice)
     check_near({ parameters.white_balance.begin(), parameters.white_balance.end() }, choice.white_balance,
                "white balance");
     check_near({ parameters.gain }, choice.gain, "gain");
+    REQUIRE(parameters.brightness_sd_ev.has_value() == choice.log_deviation.defined());
+    if (parameters.brightness_sd_ev)
+        check_near({ *parameters.brightness_sd_ev }, choice.log_deviation.exp() / std::log(2.0), "deviation");
 }
 
 void use_choice(Parameters& parameters, const ChosenParameters& choice)
@@ -83,9 +87,11 @@ void check_model(const std::string& path, std::uint64_t seed)
     Expected<Parameters> parameters = srisp::select(**native, source_thumbnail, reference_thumbnail);
     REQUIRE_MESSAGE(parameters, (parameters ? "" : parameters.error().message));
     ChosenParameters choice;
-    const torch::Tensor reversed = learned->model->reverse(source, reference, &choice);
+    const int size = learned->model->selection_size();
+    const torch::Tensor small = area_resize(source, size, size);
+    const torch::Tensor reversed = learned->model->reverse(small, area_resize(reference, size, size), &choice);
     check_choice(*parameters, choice);
-    check_near(applied(**native, *parameters, Direction::reverse, source), reversed[0].permute({ 1, 2, 0 }),
+    check_near(applied(**native, *parameters, Direction::reverse, small), reversed[0].permute({ 1, 2, 0 }),
                "reversed thumbnail");
 
     // Now both apply the same parameters to the bit: the forward pass makes 5e-5 of the last bit of C.
@@ -122,9 +128,11 @@ TEST_CASE("library and LibTorch compute the same with new models, as training st
 {
     const ScratchFolder folder;
     const std::string path = folder.path("m.safetensors");
-    for (const char* kernel_size : { "3", "1" }) {
+    for (const auto& [kernel_size, selection_size] :
+         std::vector<std::pair<std::string, int>>{ { "3", 64 }, { "1", 96 }, { "1", 128 } }) {
         ModelSettings settings;
         settings.kernel_size = kernel_size;
+        settings.selection_size = selection_size;
         const std::shared_ptr<Unprocessor> model = make_unprocessor(settings, 3);
         const Status status =
             save_model(*model, settings, path, { { "train_data", "none" }, { "license", "none" } }, "F32");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/run/model_file.h"
 
+#include <cmath>
 #include <filesystem>
 
 #include <doctest/doctest.h>
@@ -80,6 +81,33 @@ TEST_CASE("a network that is saved and loaded has the same bits")
     }
 }
 
+TEST_CASE("a model file says at which size it selects, and its deviations may be corrected when it is written")
+{
+    const ScratchFolder folder;
+    const std::string path = folder.path("m.safetensors");
+    ModelSettings settings;
+    settings.selection_size = 96;
+    Network network(settings, 9);
+    REQUIRE(save_model(network, settings, path, kMetadata, "F32", 1.5));
+    const LoadedModel again = loaded(path);
+    CHECK(again.metadata.at("format") == "srisp-7");
+    CHECK(again.metadata.at("selection_size") == "96");
+    CHECK(again.model->selection_size() == 96);
+    const torch::NoGradGuard no_gradient;
+    const torch::Tensor source = smooth_images(2, 32, 32, 1), reference = smooth_images(2, 32, 32, 2, 0, 0.4);
+    ChosenParameters before, after;
+    network.reverse(source, reference, &before);
+    again.model->reverse(source, reference, &after);
+    CHECK(compare(values_of(after.log_deviation), values_of(before.log_deviation + std::log(1.5))).largest < 1e-6);
+
+    settings.anchor_network = false;
+    save(Network(settings, 9), settings, path, "F32");
+    const LoadedModel plain = loaded(path);
+    CHECK(plain.metadata.at("format") == "srisp-1");
+    CHECK(plain.metadata.count("selection_size") == 0);
+    CHECK(plain.model->selection_size() == 256);
+}
+
 TEST_CASE("float16 files hold the nearest values and half the bytes")
 {
     const ScratchFolder folder;
@@ -141,7 +169,7 @@ TEST_CASE("what no tool can run is saved too, and only the trainer reads it")
         Expected<std::unique_ptr<ModelData>> refused = parse_model(contents(path), "model");
         REQUIRE(!refused);
         CHECK(refused.error().message ==
-              "model: metadata 'format' is 'srisp-baseline-1', must be 'srisp-1' or 'srisp-6'");
+              "model: metadata 'format' is 'srisp-baseline-1', must be 'srisp-1' or 'srisp-7'");
     }
 }
 
