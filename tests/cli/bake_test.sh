@@ -22,7 +22,7 @@ head -c 20000 "$reference" >truncated.dng
 head -c 1000 "$photo" >truncated.jpg
 echo "{" >broken.json
 "$tool" "$photo" --srisp-params "$reference" 2>/dev/null >spatial.json
-"$tool" "$photo" --srisp-params:model=pointwise "$reference" 2>/dev/null >look.json
+"$tool" "$photo" --srisp-params "$reference" 2>/dev/null >look.json
 check "nothing to bake" refuses 2 "no reference is given"
 check "an unknown option" refuses 2 "--refrence" --refrence x
 check "a LUT size that no host takes" refuses 2 "not in range 5 to 129" --reference "$reference" --lut-size 200
