@@ -109,7 +109,7 @@ TEST_CASE("more points make smaller errors")
     }
 }
 
-TEST_CASE("models that are not pointwise, parameters of others, and sizes that no host takes are refused")
+TEST_CASE("models that look at neighbours, parameters of others, and sizes that no host takes are refused")
 {
     const auto model = default_model();
     const Parameters parameters = sample_parameters(*model);
@@ -119,8 +119,8 @@ TEST_CASE("models that are not pointwise, parameters of others, and sizes that n
               "LUT size " + std::to_string(size) + " must be within 5 … 129");
     const auto spatial = require(Model::load(std::string(SRISP_SOURCE_DIR) + "/configs/models/spatial.safetensors"));
     CHECK(message(make_ocio_transform(*spatial, sample_parameters(*spatial), Direction::reverse)) ==
-          "model 'spatial': its tone map looks at 3 x 3 pixels, and a table holds single colours: needs a pointwise "
-          "model (kernel size 1)");
+          "model 'spatial': its tone map looks at 3 x 3 pixels, and a table holds single colours: needs a model "
+          "with kernel size 1, such as 'default'");
     CHECK(message(make_clf(*model, sample_parameters(*spatial), Direction::forward, {})).find("spatial") !=
           std::string::npos);
 }
