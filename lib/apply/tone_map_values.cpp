@@ -62,9 +62,11 @@ Status tone_map_values(const Model& model, const Parameters& parameters, Directi
                        std::int64_t count, float* out)
 {
     if (model.kernel_size() != 1)
-        return Error{ "model '" + model.name() + "': its tone map looks at " + std::to_string(model.kernel_size()) +
-                      " x " + std::to_string(model.kernel_size()) +
-                      " pixels, and a table holds single colours: needs a pointwise model (kernel size 1)" };
+        return Error{
+            "model '" + model.name() + "': its tone map looks at " + std::to_string(model.kernel_size()) + " x " +
+            std::to_string(model.kernel_size()) +
+            " pixels, and a table holds single colours: needs a model with kernel size 1, such as 'default'"
+        };
     if (Status status = check_parameters(parameters, model); !status)
         return status;
     return guarded("tone map", {}, [&]() -> Status {

@@ -18,7 +18,7 @@ const std::vector<Option>& option_table()
     static const std::vector<Option> table = {
         { "reference", kQuery | files, T::references, &Recipe::references, {}, "", "", "" },
         { "model", kProgram | kQuery | files | commands, T::model, &Recipe::model, {}, "", "NAME",
-          "default, pointwise, or the path of a .safetensors file" },
+          "default, spatial, or the path of a .safetensors file" },
         { "params", kProgram | kQuery | kUnprocess | kProcess, T::parameters, &Recipe::parameters, {}, "", "FILE",
           "the parameters in FILE instead of chosen ones: what --srisp-params or --srisp-save-params wrote, edited or "
           "not" },

@@ -23,7 +23,7 @@ namespace {
 
 using Group = OCIO::ConstGroupTransformRcPtr;
 
-const char kNeutral[] = "srisp_neutral", kDefaultModel[] = "pointwise";
+const char kNeutral[] = "srisp_neutral", kDefaultModel[] = "default";
 constexpr std::size_t kMostKept = 16; // 4 MB each
 
 /// What our config's neutral bakes are.

@@ -75,7 +75,7 @@ limited() {
 for extension in exr tif png jpg jp2 sgi tga bmp dpx dng; do
     check "a limit for files, $extension" limited raw.$extension "$tool" "$photo" --srisp-unprocess "$reference" -o raw.$extension
 done
-"$tool" "$photo" --srisp-params:model=pointwise "$reference" >look.json
+"$tool" "$photo" --srisp-params "$reference" >look.json
 check "a limit for files, srispbake" limited look.clf "$build/bin/srispbake" --params look.json -o look.clf
 packed() {
     mkdir -p photos && cp "$photo" photos

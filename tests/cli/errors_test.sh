@@ -34,7 +34,7 @@ check "no such reference" refuses 1 "reference 'no.dng' does not exist" "$photo"
 check "no such photo" refuses 1 "no.jpg" no.jpg --srisp-unprocess "$reference"
 check "no image" refuses 1 "--srisp-unprocess: no image before it" --srisp-unprocess "$reference"
 check "all images gone" refuses 1 "" "$photo" --pop --srisp-unprocess "$reference"
-check "no such model" refuses 2 "did you mean 'pointwise'?" "$photo" --srisp-unprocess:model=pointwize "$reference"
+check "no such model" refuses 2 "did you mean 'spatial'?" "$photo" --srisp-unprocess:model=spatail "$reference"
 check "no such model file" refuses 1 "does not exist" "$photo" --srisp-unprocess:model=./no.safetensors "$reference"
 check "truncated model" refuses 1 "truncated.safetensors" "$photo" --srisp-unprocess:model=truncated.safetensors "$reference"
 check "no such parameters" refuses 1 "no.json" "$photo" --srisp-unprocess:params=no.json -

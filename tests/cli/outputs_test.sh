@@ -4,7 +4,7 @@
 . "$(dirname "$0")/setup.sh"
 bake=$build/bin/srispbake srisppack=$build/bin/srisppack
 "$tool" "$photo" --srisp-unprocess "$reference" -o raw.exr --srisp-save-params good.json || exit 1
-"$tool" "$photo" --srisp-params:model=pointwise "$reference" >look.json || exit 1
+"$tool" "$photo" --srisp-params "$reference" >look.json || exit 1
 
 # Devices and pipes.
 null() {
@@ -68,7 +68,7 @@ mkdir folder refs
 cp "$reference" refs/a.dng
 cp "$reference" refs/b.dng
 cp "$reference" ref.dng
-cp "$source/configs/models/pointwise.safetensors" model.safetensors
+cp "$source/configs/models/default.safetensors" model.safetensors
 cp good.json p.json.kept
 for other in link.exr hard.exr ./photo.jpg folder/../photo.jpg "$scratch/photo.jpg"; do
     case $other in link*) ln -s photo.jpg link.exr ;; hard*) ln photo.jpg hard.exr ;; esac

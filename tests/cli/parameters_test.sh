@@ -42,11 +42,11 @@ check "and comes near to the photo" near "$photo" again.tif 0.05 1
 check "a photo records no parameters" says 1 "records no parameters" "$tool" "$photo" --srisp-process -o no.tif
 check "it names the photo" says 1 "photo.jpg" "$tool" "$photo" --dup --srisp-process -o no.tif
 check "that leaves no output" [ ! -e no.tif ]
-$tool "$photo" --srisp-unprocess:model=pointwise "$reference" -o pointwise.exr
-check "model=pointwise is another model" sh -c "iinfo -v pointwise.exr | grep -q pointwise && ! cmp -s pointwise.exr raw.exr"
-check "pointwise parameters do not fit the default model" says 1 "model" \
-    "$tool" "$photo" --srisp-params:model=pointwise "$reference" --srisp-unprocess:model=default:params=edited.json - \
-    --srisp-process:model=pointwise -o no.tif
+$tool "$photo" --srisp-unprocess:model=spatial "$reference" -o spatial.exr
+check "model=spatial is another model" sh -c "iinfo -v spatial.exr | grep -q spatial && ! cmp -s spatial.exr raw.exr"
+check "spatial parameters do not fit the default model" says 1 "model" \
+    "$tool" "$photo" --srisp-params:model=spatial "$reference" --srisp-unprocess:model=default:params=edited.json - \
+    --srisp-process:model=spatial -o no.tif
 $tool "$photo" --srisp-unprocess:precision=fast "$reference" -o fast.exr
 if grep -qw avx512_bf16 /proc/cpuinfo; then limit=1e-3; else limit=1e-4; fi
 check "precision=fast gives nearly the same" near raw.exr fast.exr $limit 0

@@ -41,7 +41,7 @@ both() {
         timeout 60 oiiotool "$photo" --srisp-unprocess "$reference" -o moved.exr
 }
 check "two installations on PATH do not call each other" both
-by_path() { PATH="$build/bin:$PATH" srisptool "$photo" --srisp-unprocess:model=pointwise "$reference" -o x.exr; }
+by_path() { PATH="$build/bin:$PATH" srisptool "$photo" --srisp-unprocess "$reference" -o x.exr; }
 check "called by PATH" by_path
 check "no stock oiiotool" says 1 "no stock oiiotool on PATH" \
     env PATH="$build/libexec/srisp" "$tool" "$photo" -o x.exr

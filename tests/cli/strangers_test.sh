@@ -63,7 +63,7 @@ done
 # What an image says of its model is a name.
 echo "12345678 and more that is nobody's business" >secret
 mkfifo fifo
-"$tool" "$photo" --srisp-unprocess:model=pointwise "$reference" -o raw.exr
+"$tool" "$photo" --srisp-unprocess "$reference" -o raw.exr
 for name in "$scratch/secret" "$scratch/fifo" ./secret ../x.safetensors /dev/zero; do
     /usr/bin/python3 - "$name" <<'P'
 import sys
@@ -71,15 +71,15 @@ import OpenImageIO as oiio
 image = oiio.ImageBuf("raw.exr")
 for key in ("ImageDescription", "unprocess:record"):
     text = image.spec().get_string_attribute(key)
-    assert '"name":"pointwise"' in text
-    image.specmod().attribute(key, text.replace('"name":"pointwise"', f'"name":"{sys.argv[1]}"'))
+    assert '"name":"default"' in text
+    image.specmod().attribute(key, text.replace('"name":"default"', f'"name":"{sys.argv[1]}"'))
 assert image.write("named.exr")
 P
     check "a recorded model '$name' is not opened" told "model '$name' (xxh128:" "$tool" named.exr --srisp-process -o no.tif
     check "the message says what to do" told "; model=FILE gives it" "$tool" named.exr --srisp-process -o no.tif
-    check "another model is not taken for it" works "$tool" named.exr --srisp-process:model=pointwise -o back.tif
+    check "another model is not taken for it" works "$tool" named.exr --srisp-process:model=default -o back.tif
 done
-cp "$source/configs/models/pointwise.safetensors" mine.safetensors
+cp "$source/configs/models/default.safetensors" mine.safetensors
 "$tool" "$photo" --srisp-unprocess:model=mine.safetensors "$reference" -o mine.exr
 check "a model given by its path is not found again by itself" told "model 'mine' (xxh128:" "$tool" mine.exr --srisp-process -o no.tif
 check "but by the same path" works "$tool" mine.exr --srisp-process:model=mine.safetensors -o back.tif

@@ -156,11 +156,11 @@ check "a recipe in the output's folder that would change" keeps whole/recipe.jso
 same_recipe() { "$train" whole/recipe.json --threads 1; }
 check "a finished training by its own recipe, which stays the same" same_recipe
 check "a model of another kernel size as --init" says 1 \
-    "--init pointwise is another kind of model than the recipe's: 'model.kernel_size' is \"1\" there, \"3\" here" \
-    "$train" tiny.json --init pointwise -o init
+    "--init spatial is another kind of model than the recipe's: 'model.kernel_size' is \"3\" there, \"1\" here" \
+    "$train" tiny.json --init spatial -o init
 check "no model as --init" says 1 "unknown model 'defalt'; did you mean 'default'?" "$train" tiny.json --init defalt -o init
 with_an_anchor() {
-    "$train" tiny.json -o anchored --set anchor_fit.from=pointwise --steps 1 2>err && ! grep -q "anchor fitted" err &&
+    "$train" tiny.json -o anchored --set anchor_fit.from=spatial --steps 1 2>err && ! grep -q "anchor fitted" err &&
         [ -s anchored/best.safetensors ]
 }
 check "the anchor of another model, without a fit" with_an_anchor

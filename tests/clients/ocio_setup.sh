@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Sourced by the ocio_ scripts: setup.sh, and beside what it makes: our config in OCIO, a bake of reference.dng for
-# photo.jpg, raw.exr (the library's pointwise pixels, float) and back.tif (the same, processed). The third argument is the
+# photo.jpg, raw.exr (the library's pixels, float) and back.tif (the same, processed). The third argument is the
 # folder of shared test data.
 . "${0%/*}/setup.sh"
 
@@ -14,7 +14,7 @@ unprocess="srisp unprocess" process="srisp process" camera="srisp camera RGB"
 
 # library PHOTO REFERENCE RAW BACK: the pixels to compare with.
 library() {
-    "$tool" "$1" --srisp-unprocess:model=pointwise "$2" -o:datatype=float "$3" --srisp-process -o:datatype=float "$4" \
+    "$tool" "$1" --srisp-unprocess "$2" -o:datatype=float "$3" --srisp-process -o:datatype=float "$4" \
         2>"$scratch/library.log" || cat "$scratch/library.log"
 }
 library photo.jpg reference.dng raw.exr back.tif

@@ -12,7 +12,7 @@ check "ociocheck has no warnings, without a reference" clean ociocheck --iconfig
 check "and with one" clean env SRISP_REFERENCE="$here" ociocheck --iconfig "$OCIO"
 
 # Its pixel of a plain grey against the library's.
-"$tool" photo.jpg --srisp-params:model=pointwise reference.dng 2>/dev/null >look.json
+"$tool" photo.jpg --srisp-params reference.dng 2>/dev/null >look.json
 oiiotool --create 1x1 3 --fill:color=0.6,0.5,0.3 1x1 -d float -o grey.tif
 "$tool" grey.tif --srisp-unprocess:params=look.json:input=srgb - -o:datatype=float grey.exr 2>/dev/null
 ociochecklut reference.dng.unprocess.clf 0.6 0.5 0.3 >pixel.txt

@@ -21,7 +21,7 @@ for reader in iinfo "oiiotool --info" "iconvert -v"; do
 done
 
 check "a misspelt option is named" says "did you mean 'reference'?" iinfo "photo.jpg.srisp?refrence=reference.dng"
-check "an unknown model is named" says "did you mean 'pointwise'?" iinfo "$name&model=pointwse"
+check "an unknown model is named" says "did you mean 'spatial'?" iinfo "$name&model=spatail"
 check "a missing source is named" says "photo 'missing.jpg': does not exist" iinfo "missing.jpg.srisp?reference=reference.dng"
 check "a missing reference is named" says "reference 'missing.dng'" iinfo "photo.jpg.srisp?reference=missing.dng"
 check "a JPEG is no reference" says "display-encoded" iinfo "photo.jpg.srisp?reference=photo.jpg"

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Golden values of the models that ship, by the independent implementation in method.py.
 
-    python3 tests/golden/golden.py          writes inputs, values_default and values_pointwise beside this script
+    python3 tests/golden/golden.py          writes inputs, values_default and values_spatial beside this script
     python3 tests/golden/golden.py GOLDEN   holds the implementation against the golden values of other ones: GOLDEN has
                                             model_NAME and values_NAME for spatial, pointwise and paper
 
@@ -83,7 +83,7 @@ def check(folder):
 def write():
     inputs = made_inputs()
     save(FOLDER / "inputs.safetensors", inputs, {"origin": "configs/sample/photo.jpg"})
-    for name in ("default", "pointwise"):
+    for name in ("default", "spatial"):
         path = ROOT / f"configs/models/{name}.safetensors"
         model, metadata = load(path)
         values = computed(model, metadata, inputs, 8)

@@ -72,9 +72,9 @@ inline Colors through_library(const srisp::Model& model, const srisp::Parameters
     return rgb;
 }
 
-inline std::shared_ptr<const srisp::Model> pointwise_model()
+inline std::shared_ptr<const srisp::Model> default_model()
 {
-    return require(srisp::Model::load(std::string(SRISP_SOURCE_DIR) + "/configs/models/pointwise.safetensors"));
+    return require(srisp::Model::load(std::string(SRISP_SOURCE_DIR) + "/configs/models/default.safetensors"));
 }
 
 /// What the model chooses for the sample reference and its own neutral rendition.

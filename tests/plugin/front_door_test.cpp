@@ -12,9 +12,9 @@ TEST_CASE("the library gives the reader's pixels and the reader's record, there 
     const ScratchFolder folder;
     const std::string reference = write_reference(folder), photo = write_photo(folder, "photo.png", 120, 700);
     Options options;
-    REQUIRE(set_option(options, "model", "pointwise"));
+    REQUIRE(set_option(options, "model", "spatial"));
     SrispInput input;
-    const OIIO::ImageSpec spec = open_ours(input, photo + ".srisp?model=pointwise&reference=" + reference);
+    const OIIO::ImageSpec spec = open_ours(input, photo + ".srisp?model=spatial&reference=" + reference);
     const auto raw = unprocess(photo, reference, options);
     REQUIRE_MESSAGE(raw, (raw ? "" : raw.error().message));
     CHECK(raw->pixels() == read_all(input));

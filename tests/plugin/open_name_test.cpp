@@ -28,10 +28,10 @@ TEST_CASE("a name is ours by its form alone")
 TEST_CASE("a query sets what it names, percent codes decoded")
 {
     Recipe recipe;
-    REQUIRE(apply_query(recipe, "reference=my%20dir/a%26b%3D1%25.dng&model=pointwise&seed=12&input=linear&"
+    REQUIRE(apply_query(recipe, "reference=my%20dir/a%26b%3D1%25.dng&model=spatial&seed=12&input=linear&"
                                 "direction=forward&lazy=1"));
     CHECK(recipe.references == std::vector<std::string>{ "my dir/a&b=1%.dng" });
-    CHECK(recipe.model == "pointwise");
+    CHECK(recipe.model == "spatial");
     CHECK(recipe.seed == 12);
     CHECK(recipe.input == InputEncoding::linear);
     CHECK(recipe.direction == Direction::forward);

@@ -277,7 +277,7 @@ TEST_CASE("what is wrong is said on opening")
     const std::string reference = write_reference(folder), photo = write_photo(folder);
     CHECK(has(refusal_of(photo + ".srisp?reference=" + folder.path("none.dng")), "none.dng"));
     CHECK(has(refusal_of(photo + ".srisp?reference=" + folder.path("none.dng") + "&lazy=1"), "none.dng"));
-    CHECK(has(refusal_of(photo + ".srisp?reference=" + reference + "&model=pointwse"), "did you mean 'pointwise'?"));
+    CHECK(has(refusal_of(photo + ".srisp?reference=" + reference + "&model=spatail"), "did you mean 'spatial'?"));
     CHECK(has(refusal_of(folder.path("none.jpg.srisp?reference=") + reference), "none.jpg': does not exist"));
     CHECK(has(refusal_of(folder.path(".srisp?reference=") + reference), "is a folder"));
     const std::string garbage = folder.file("garbage.png", "no image");

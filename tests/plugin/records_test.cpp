@@ -33,7 +33,7 @@ TEST_CASE("the model that an image records is found by name and hash, and is nev
     const ScratchFolder folder;
     const std::string reference = write_reference(folder), photo = write_photo(folder), raw = folder.path("raw.exr");
     const std::string mine = folder.path("mine.safetensors");
-    std::filesystem::copy_file(std::string(SRISP_SOURCE_DIR) + "/configs/models/pointwise.safetensors", mine);
+    std::filesystem::copy_file(std::string(SRISP_SOURCE_DIR) + "/configs/models/default.safetensors", mine);
     {
         SrispInput input;
         const OIIO::ImageSpec spec = open_ours(input, photo + ".srisp?model=" + mine + "&reference=" + reference);
@@ -47,7 +47,7 @@ TEST_CASE("the model that an image records is found by name and hash, and is nev
     OIIO::ImageSpec given, found;
     const std::vector<float> pixels = result_of(raw + forward + "&model=" + mine, given);
     const ScratchFolder other; // another model of that name comes first, then a broken one
-    std::filesystem::copy_file(std::string(SRISP_SOURCE_DIR) + "/configs/models/default.safetensors",
+    std::filesystem::copy_file(std::string(SRISP_SOURCE_DIR) + "/configs/models/spatial.safetensors",
                                other.path("mine.safetensors"));
     const ScratchFolder broken;
     broken.file("mine.safetensors", "no model");

@@ -148,7 +148,7 @@ void check_all(const GoldenValues& file)
 
 TEST_CASE("select and apply match the golden values of the models that ship on every instruction set")
 {
-    for (const char* name : { "default", "pointwise" })
+    for (const char* name : { "default", "spatial" })
         check_all(shipped_golden_values(name));
 }
 

@@ -108,7 +108,7 @@ TEST_CASE("a grey ramp is monotonic in reverse and forward, and white comes back
     const Thumbnail photo = photo_thumbnail();
     const Thumbnail sample =
         require(load_reference(std::string(SRISP_SOURCE_DIR) + "/configs/sample/reference.dng"))->thumbnail;
-    for (const std::string name : { "default", "pointwise" })
+    for (const std::string name : { "default", "spatial" })
         for (const Light& light : kLights) {
             const std::shared_ptr<const Model> model = require(Model::load(name));
             Thumbnail reference = sample;

@@ -52,7 +52,7 @@ made() {
 made "tool: exr" raw.exr srisptool photo.jpg --srisp-unprocess ref.dng -o raw.exr
 made "tool: 16-bit png" raw.png srisptool photo.jpg --srisp-unprocess ref.dng -o raw.png
 made "tool: tif after resize" raw.tif srisptool photo.jpg --resize 50% --srisp-unprocess ref.dng -o raw.tif
-made "tool: pointwise" point.exr srisptool photo.jpg --srisp-unprocess:model=pointwise ref.dng -o point.exr
+made "tool: spatial" spatial.exr srisptool photo.jpg --srisp-unprocess:model=spatial ref.dng -o spatial.exr
 made "tool: fast" fast.exr srisptool photo.jpg --srisp-unprocess:precision=fast ref.dng -o fast.exr
 made "tool: alpha" alpha.exr srisptool alpha.png --srisp-unprocess ref.dng -o alpha.exr
 made "tool: grey" grey.exr srisptool grey.tif --srisp-unprocess ref.dng -o grey.exr
@@ -65,7 +65,7 @@ made "tool: process" again.png srisptool raw.exr --srisp-process -d uint8 -o aga
 made "tool: process fast" again_fast.exr srisptool raw.exr --srisp-process:precision=fast -o again_fast.exr
 srisptool --frames 1-3 shot.#.jpg --srisp-unprocess:hold=1 ref.dng -o frame.#.exr 2>/dev/null
 for frame in 0001 0003; do show "tool: frame $frame" frame.$frame.exr; done
-made "tool: list of references" list.exr srisptool photo.jpg --srisp-unprocess:seed=7 'ref.dng;raw.exr;point.exr' -o list.exr
+made "tool: list of references" list.exr srisptool photo.jpg --srisp-unprocess:seed=7 'ref.dng;raw.exr;spatial.exr' -o list.exr
 export OIIO_LIBRARY_PATH="$plugins"
 made "plugin: query" query.exr "$stock" -i:now=1 "photo.jpg.srisp?reference=ref.dng&seed=3" -o query.exr
 run "plugin: iinfo" iinfo -v "photo.jpg.srisp?reference=ref.dng"
@@ -99,7 +99,7 @@ if [ -x "$build/bin/srisptrain" ]; then
     # Tensors only: the metadata names the commit.
     tail -c +$(($(od -An -t u8 -N 8 trained/best.safetensors) + 9)) trained/best.safetensors >tensors
     show "training: tensors" tensors
-    made "evaluation" scores.json sh -c "srispeval --pack training '$source/configs/models/pointwise.safetensors' --json >scores.json"
+    made "evaluation" scores.json sh -c "srispeval --pack training '$source/configs/models/spatial.safetensors' --json >scores.json"
 fi
 [ -n "$shared" ] || exit 0
 for raw in "$shared"/data/raw/*.*; do

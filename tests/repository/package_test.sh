@@ -82,5 +82,5 @@ check "it builds with pkg-config" with_pkg_config package_ocio srisp_ocio host
 check "and runs" gives_the_pixel_of_the_bake env LD_LIBRARY_PATH="$library" "$scratch/host"
 check "a reference that is not there is named" names_the_missing_reference
 check "headers and models are installed" \
-    test -f "$prefix/include/srisp/select.h" -a -f "$prefix/share/srisp/models/pointwise.safetensors"
+    test -f "$prefix/include/srisp/select.h" -a -f "$prefix/share/srisp/models/spatial.safetensors"
 finish

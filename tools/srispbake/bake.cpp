@@ -34,7 +34,7 @@ std::string one_line(const std::string& name)
 class CubeTable {
 public:
     /// Throws Failure.
-    CubeTable(const Chosen& chosen, Direction direction, int size);
+    CubeTable(const BakeChoice& choice, Direction direction, int size);
 
     /// What such a program does with it, tetrahedral.
     OCIO::ConstTransformRcPtr transform() const;
@@ -46,7 +46,7 @@ private:
     std::vector<float> m_rgb; ///< red runs fastest
 };
 
-CubeTable::CubeTable(const Chosen& chosen, Direction direction, int size) : m_size(size)
+CubeTable::CubeTable(const BakeChoice& choice, Direction direction, int size) : m_size(size)
 {
     for (int b = 0; b < size; ++b)
         for (int g = 0; g < size; ++g)
@@ -54,7 +54,7 @@ CubeTable::CubeTable(const Chosen& chosen, Direction direction, int size) : m_si
                 for (const int i : { r, g, b })
                     m_rgb.push_back(float(i) / float(size - 1));
     const MutableImageView colors{ m_rgb.data(), size * size, size, 3, std::ptrdiff_t(3) * size * size };
-    require(require(Applier::create(*chosen.model, chosen.parameters, direction))->run(colors, colors));
+    require(require(Applier::create(*choice.model, choice.parameters, direction))->run(colors, colors));
 }
 
 OCIO::ConstTransformRcPtr CubeTable::transform() const
@@ -93,14 +93,13 @@ std::string absolute_path(const std::string& path)
 
 std::string title(const BakeChoice& choice, Direction direction)
 {
-    const std::string& name = choice.pointwise.parameters.reference_name;
+    const std::string& name = choice.parameters.reference_name;
     return std::string("srisp ") + direction_name(direction) + (name.empty() ? "" : " as " + name);
 }
 
 std::vector<std::string> descriptions(const BakeOptions& options, const BakeChoice& choice, Direction direction,
-                                      const std::vector<std::string>& sentences)
+                                      const std::string& errors)
 {
-    const Parameters& parameters = choice.pointwise.parameters;
     std::vector<std::string> lines = {
         direction == Direction::reverse
             ? "Display-encoded sRGB to RAW-like linear camera RGB; synthetic, a guess and not sensor data."
@@ -108,8 +107,8 @@ std::vector<std::string> descriptions(const BakeOptions& options, const BakeChoi
     };
     if (!options.reference.empty())
         lines.push_back(reference_line(absolute_path(options.reference)));
-    lines.push_back("Parameters: " + to_json(parameters, -1));
-    lines.insert(lines.end(), sentences.begin(), sentences.end());
+    lines.push_back("Parameters: " + to_json(choice.parameters, -1));
+    lines.push_back(errors);
     return lines;
 }
 
@@ -122,28 +121,28 @@ struct Baked {
 BakeReport measured(const OutputName& name, const OCIO::ConstTransformRcPtr& transform, const BakeChoice& choice)
 {
     const BakeErrors errors = measure_errors(transform, choice, name.direction);
-    return { name, 0, errors, error_sentences(errors, choice, name.direction) };
+    return { name, 0, errors, error_sentence(errors, choice) };
 }
 
 Baked bake_clf(const OutputName& name, const BakeOptions& options, const BakeChoice& choice)
 {
-    const auto operators = require(
-        pipeline_operators(*choice.pointwise.model, choice.pointwise.parameters, name.direction, options.lut_size));
+    const auto operators =
+        require(pipeline_operators(*choice.model, choice.parameters, name.direction, options.lut_size));
     check_interrupt();
     Baked baked{ measured(name, ocio_group(operators), choice), {} };
     const ClfLabel label{ "srisp-" + std::string(direction_name(name.direction)), title(choice, name.direction),
-                          descriptions(options, choice, name.direction, baked.report.sentences) };
+                          descriptions(options, choice, name.direction, baked.report.sentence) };
     baked.text = clf_text(operators, label);
     return baked;
 }
 
 Baked bake_cube(const OutputName& name, const BakeOptions& options, const BakeChoice& choice)
 {
-    const CubeTable table(choice.pointwise, name.direction, options.lut_size);
+    const CubeTable table(choice, name.direction, options.lut_size);
     check_interrupt();
     Baked baked{ measured(name, table.transform(), choice), {} };
-    baked.text = table.text(title(choice, name.direction),
-                            descriptions(options, choice, name.direction, baked.report.sentences));
+    baked.text =
+        table.text(title(choice, name.direction), descriptions(options, choice, name.direction, baked.report.sentence));
     return baked;
 }
 
@@ -206,10 +205,7 @@ BakeSummary bake(const BakeOptions& options)
         for (const OutputName& name : names)
             if (!name.cube)
                 refuse_bake_of_another(name.path, absolute_path(options.reference));
-    BakeSummary summary{ choice.photo ? choice.photo->name : "",
-                         choice.full ? choice.full->model->name() : "",
-                         {},
-                         notes_of(choice, options) };
+    BakeSummary summary{ choice.photo ? choice.photo->name : "", {}, notes_of(choice, options) };
     std::vector<std::future<Baked>> bakes;
     for (const OutputName& name : names)
         bakes.push_back(std::async(std::launch::async, name.cube ? bake_cube : bake_clf, std::cref(name),

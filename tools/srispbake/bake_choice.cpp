@@ -37,11 +37,8 @@ PhotoSample empty_sample(const std::string& name, int width, int height)
             Roi roi;
             middle_of_share(width, column, roi.x0, roi.x1);
             middle_of_share(height, row, roi.y0, roi.y1);
-            if (roi.x0 == roi.x1 || roi.y0 == roi.y1)
-                continue; // fewer pixels than parts
-            const Roi held{ std::max(roi.x0 - PhotoSample::kHalo, 0), std::min(roi.x1 + PhotoSample::kHalo, width),
-                            std::max(roi.y0 - PhotoSample::kHalo, 0), std::min(roi.y1 + PhotoSample::kHalo, height) };
-            sample.tiles.push_back({ roi, held, {} });
+            if (roi.x0 != roi.x1 && roi.y0 != roi.y1) // else fewer pixels than parts
+                sample.tiles.push_back({ roi, {} });
         }
     return sample;
 }
@@ -50,8 +47,8 @@ PhotoSample empty_sample(const std::string& name, int width, int height)
 void add_rows(PhotoSample& sample, ImageView rows, int y0)
 {
     for (PhotoSample::Tile& tile : sample.tiles)
-        for (int y = std::max(y0, tile.held.y0); y < std::min(y0 + rows.height, tile.held.y1); ++y)
-            tile.rgb.insert(tile.rgb.end(), rows.pixel(tile.held.x0, y - y0), rows.pixel(tile.held.x1, y - y0));
+        for (int y = std::max(y0, tile.roi.y0); y < std::min(y0 + rows.height, tile.roi.y1); ++y)
+            tile.rgb.insert(tile.rgb.end(), rows.pixel(tile.roi.x0, y - y0), rows.pixel(tile.roi.x1, y - y0));
 }
 
 } // namespace
@@ -85,19 +82,17 @@ PhotoSample sample_of_thumbnail(const Thumbnail& picture, const std::string& nam
 
 namespace {
 
-const char kFullModel[] = "default";
-
-std::shared_ptr<const Model> pointwise_model(const std::string& name)
+std::shared_ptr<const Model> bakeable_model(const std::string& name)
 {
     auto model = require(Model::load(name));
     if (model->kernel_size() != 1)
         fail("model '" + name + "' looks at " + std::to_string(model->kernel_size()) + " x " +
              std::to_string(model->kernel_size()) +
-             " pixels, and a colour transform sees one: needs a pointwise model (kernel size 1; 'pointwise' is one)");
+             " pixels, and a colour transform sees one: needs a model with kernel size 1, such as 'default'");
     return model;
 }
 
-Parameters given_parameters(const std::string& path, const Model& model)
+Parameters given_parameters(const std::string& path, const Model& model, const std::string& model_name)
 {
     const auto text = read_text_file(path, kLargestJson);
     if (!text)
@@ -105,14 +100,14 @@ Parameters given_parameters(const std::string& path, const Model& model)
     const Parameters parameters = require(parameters_from_json(*text, "'" + path + "'"));
     if (const Status fits = check_parameters(parameters, model); !fits)
         fail("parameters '" + path + "': " + fits.error().message +
-             " (srisptool PHOTO --srisp-params:model=pointwise REFERENCE prints such)");
+             " (srisptool PHOTO --srisp-params:model=" + model_name + " REFERENCE prints such)");
     return parameters;
 }
 
 Parameters chosen_parameters(const Model& model, const Thumbnail& photo, const Reference& reference,
-                             std::vector<std::string>* notes)
+                             std::vector<std::string>& notes)
 {
-    Parameters parameters = require(select(model, photo, reference.thumbnail, notes));
+    Parameters parameters = require(select(model, photo, reference.thumbnail, &notes));
     parameters.reference_name = reference.name;
     parameters.reference_hash = reference.hash;
     return parameters;
@@ -123,9 +118,9 @@ Parameters chosen_parameters(const Model& model, const Thumbnail& photo, const R
 BakeChoice make_choice(const BakeOptions& options)
 {
     BakeChoice choice;
-    choice.pointwise.model = pointwise_model(options.model);
+    choice.model = bakeable_model(options.model);
     if (!options.parameters.empty())
-        choice.pointwise.parameters = given_parameters(options.parameters, *choice.pointwise.model);
+        choice.parameters = given_parameters(options.parameters, *choice.model, options.model);
     auto reference = std::async(std::launch::async, [&] {
         return options.reference.empty() ? Expected<std::shared_ptr<const Reference>>(nullptr)
                                          : load_reference(options.reference);
@@ -137,20 +132,10 @@ BakeChoice make_choice(const BakeOptions& options)
     if (!choice.reference)
         return choice;
     choice.notes = choice.reference->notes;
-    if (!choice.photo) {
+    if (!choice.photo)
         choice.photo = sample_of_thumbnail(neutral_rendition(*choice.reference), "the reference's neutral rendition");
-        choice.photo_is_rendition = true;
-    }
-    auto full = std::async(std::launch::async, [&]() -> std::optional<Chosen> {
-        const auto model = Model::load(kFullModel);
-        if (!model || (*model)->kernel_size() == 1)
-            return {};
-        return Chosen{ *model, chosen_parameters(**model, choice.photo->thumbnail, *choice.reference, nullptr) };
-    });
     if (options.parameters.empty())
-        choice.pointwise.parameters =
-            chosen_parameters(*choice.pointwise.model, choice.photo->thumbnail, *choice.reference, &choice.notes);
-    choice.full = full.get();
+        choice.parameters = chosen_parameters(*choice.model, choice.photo->thumbnail, *choice.reference, choice.notes);
     return choice;
 }
 

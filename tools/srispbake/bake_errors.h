@@ -21,12 +21,10 @@ struct ErrorSize {
     double mean() const { return values ? sum / static_cast<double>(values) : 0; }
 };
 
-/// How far one bake is from what it stands for, in the units of its result.
+/// How far one bake is from the library's pixels, in the units of its result.
 struct BakeErrors {
-    ErrorSize grid;                 ///< against the pointwise pipeline, over a dense grid of colours
-    std::optional<ErrorSize> photo; ///< the same over the photo
-    std::optional<ErrorSize>
-        full; ///< against the full pipeline on the photo; `process`: each from its own RAW-like image
+    ErrorSize grid;                 ///< over a dense grid of colours
+    std::optional<ErrorSize> photo; ///< over the photo; `process`: over its RAW-like image
 };
 
 /// Applies the bake as a host does (CPU, default optimisation). Throws Failure.

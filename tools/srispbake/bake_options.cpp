@@ -64,18 +64,18 @@ in any host where the context variable SRISP_REFERENCE is the path of RAW. Where
 that folder cannot be written to, they go to the folder SRISP_BAKE_PATH.
 
 Parameters are chosen for PHOTO; without one, for the picture that a plain
-converter makes of the reference itself. A colour transform sees single pixels,
-so the pointwise model is baked; its errors are printed and written into the
-file: against the pointwise pipeline, over a grid of colours and over the photo,
-and, apart, the difference to the full pipeline (model default).
+converter makes of the reference itself. How far a bake is from srisptool's
+pixels, over a grid of colours and over the photo, is printed and written into
+the file.
 
 Options:
   --reference RAW     The RAW file to be matched
   --source PHOTO      The photo to choose for
   --allow-partial     Take a PHOTO that breaks off as far as it goes
-  --params JSON       Parameters as srisptool --srisp-params:model=pointwise
-                      prints them, edited or not, instead of choosing
-  --model NAME        Name or path of a pointwise model; pointwise
+  --params JSON       Parameters as srisptool --srisp-params prints them,
+                      edited or not, instead of choosing
+  --model NAME        Name or path of a model that sees single pixels (kernel
+                      size 1), as colour transforms do; default
   -o, --output NAME   NAME.unprocess.clf and NAME.process.clf instead; or one
                       file, NAME.clf or NAME.cube; or a device or pipe
   --direction WHICH   Of one file: unprocess (without this) or process

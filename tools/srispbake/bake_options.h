@@ -14,7 +14,7 @@ namespace srisp::tool {
 
 /// What the command line asks for.
 struct BakeOptions : CommonOptions {
-    std::string reference, source, parameters, model = "pointwise", output;
+    std::string reference, source, parameters, model = "default", output;
     std::string direction; ///< of a single file: "unprocess" or "process"
     int lut_size = kDefaultLut;
     std::string fragment;    ///< a config to be extended

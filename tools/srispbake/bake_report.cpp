@@ -45,17 +45,12 @@ std::string value_of_variable(const BakeSummary& summary)
 
 } // namespace
 
-std::vector<std::string> error_sentences(const BakeErrors& errors, const BakeChoice& choice, Direction direction)
+std::string error_sentence(const BakeErrors& errors, const BakeChoice& choice)
 {
-    std::string pointwise = "Error against the pointwise pipeline: over a grid of colours " + size_text(errors.grid);
+    std::string sentence = "Error against srisptool's pixels: over a grid of colours " + size_text(errors.grid);
     if (errors.photo)
-        pointwise += "; over " + choice.photo->name + " " + size_text(*errors.photo);
-    std::vector<std::string> sentences = { pointwise + "." };
-    if (errors.full)
-        sentences.push_back("Difference to the full pipeline (model " + choice.full->model->name() + ") over " +
-                            choice.photo->name + ": " + size_text(*errors.full) +
-                            (direction == Direction::reverse ? "." : ", each from its own RAW-like image."));
-    return sentences;
+        sentence += "; over " + choice.photo->name + " " + size_text(*errors.photo);
+    return sentence + ".";
 }
 
 std::string summary_text(const BakeSummary& summary)
@@ -64,9 +59,7 @@ std::string summary_text(const BakeSummary& summary)
     for (const BakeReport& file : summary.files) {
         char size[32];
         std::snprintf(size, sizeof size, " (%.1f MB)\n", static_cast<double>(file.bytes) / 1e6);
-        text += file.name.path + size;
-        for (const std::string& sentence : file.sentences)
-            text += "  " + sentence + "\n";
+        text += file.name.path + size + "  " + file.sentence + "\n";
     }
     const std::string value = value_of_variable(summary);
     return value.empty() ? text : text + "In the host: " + shell_line({ "SRISP_REFERENCE=" + value }) + "\n";
@@ -79,12 +72,10 @@ std::string summary_json(const BakeSummary& summary)
         files.push_back({ { "path", file.name.path },
                           { "direction", direction_name(file.name.direction) },
                           { "bytes", file.bytes },
-                          { "pointwise_grid", json_of(file.errors.grid) },
-                          { "pointwise_photo", json_of(file.errors.photo) },
-                          { "full_photo", json_of(file.errors.full) } });
+                          { "error_over_grid", json_of(file.errors.grid) },
+                          { "error_over_photo", json_of(file.errors.photo) } });
     const ordered_json all = { { "SRISP_REFERENCE", value_of_variable(summary) },
                                { "photo", summary.photo },
-                               { "full_model", summary.full_model },
                                { "files", files } };
     return all.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }

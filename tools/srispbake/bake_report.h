@@ -14,18 +14,18 @@ struct BakeReport {
     OutputName name;
     std::size_t bytes;
     BakeErrors errors;
-    std::vector<std::string> sentences; ///< the errors in words, as in the file's description
+    std::string sentence; ///< the errors in words, as in the file's description
 };
 
 /// What was baked, and from what.
 struct BakeSummary {
-    std::string photo, full_model; ///< what errors were measured on; empty where there was none
+    std::string photo; ///< what errors were measured on; empty where there was none
     std::vector<BakeReport> files;
     std::vector<std::string> notes; ///< what was assumed or changed in photo, reference and choice
 };
 
-/// The errors in words: one sentence for the pointwise pipeline and, where it was measured, one for the full one.
-std::vector<std::string> error_sentences(const BakeErrors& errors, const BakeChoice& choice, Direction direction);
+/// The errors in words.
+std::string error_sentence(const BakeErrors& errors, const BakeChoice& choice);
 
 /// What is printed of a bake: files, sizes, errors, and what to set in the host.
 std::string summary_text(const BakeSummary& summary);

@@ -176,7 +176,7 @@ std::vector<std::string> lines_of(const std::string& text)
 
 } // namespace
 
-const std::vector<AddedVariable> kAddedVariables = { { "SRISP_MODEL", "pointwise" },
+const std::vector<AddedVariable> kAddedVariables = { { "SRISP_MODEL", "default" },
                                                      { "SRISP_REFERENCE", "srisp_neutral" },
                                                      { "SRISP_SOURCE", "" } };
 const std::vector<std::string> kAddedLooks = { "srisp unprocess", "srisp process" };

@@ -67,7 +67,7 @@ means, "+ true gain" its mean: what is left is the error of colour and tone.
 true means. "ln mean error" is that of the brightness of green.
 
 Examples:
-  srispeval --pack pack default pointwise
+  srispeval --pack pack default spatial
   srispeval --pack pack old.safetensors new.safetensors --baseline upi --json
   srispeval --pack pack model.safetensors --set thumbnail_px=256 --by-camera
 

@@ -59,7 +59,7 @@ struct SrispCommand {
 
 const std::vector<SrispCommand>& srisp_commands();
 
-/// The entry of a word such as `--srisp-unprocess:model=pointwise`; null if the word is none of ours. Fails (exit 2)
+/// The entry of a word such as `--srisp-unprocess:model=spatial`; null if the word is none of ours. Fails (exit 2)
 /// for unknown commands that begin with --srisp.
 const SrispCommand* find_srisp_command(const std::string& word);
 

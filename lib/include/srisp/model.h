@@ -17,7 +17,7 @@ struct ModelData;
 /// full when it is loaded. Immutable, so it may be used by any number of threads.
 class SRISP_API Model {
 public:
-    /// Loads a model by path (a name with '/' or ending in `.safetensors`) or by name (`default`, `pointwise`). Names
+    /// Loads a model by path (a name with '/' or ending in `.safetensors`) or by name (`default`, `spatial`). Names
     /// are looked for in the folders of SRISP_MODEL_PATH (colon-separated), then in `share/srisp/models` beside this
     /// library (install tree or build tree). Fails with one message for a missing, truncated, malformed or degenerate
     /// file.

@@ -12,7 +12,7 @@ namespace srisp {
 ///   SRISP_REFERENCE  the RAW file, a path or a name in the config's search path; `srisp_neutral` (what our config
 ///                    declares) means none: the sRGB curve alone
 ///   SRISP_SOURCE     the photo that parameters are chosen for; empty: the reference's neutral rendition
-///   SRISP_MODEL      a pointwise model, name or path; empty: `pointwise`
+///   SRISP_MODEL      name or path of a model with kernel size 1; empty: `default`
 /// `direction`: reverse ("unprocess") or forward ("process"). The config's own context is taken where `context` is
 /// null. What was made is kept for the whole process (a bounded number), by the content of the files: the same files
 /// under other names give the same transform, a changed file gives a new one. The result is shared: copy it before

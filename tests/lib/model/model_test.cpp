@@ -35,18 +35,18 @@ template<class Change> std::string message_after(Change change)
 
 TEST_CASE("the models that ship load by name and say what they are")
 {
-    Expected<std::shared_ptr<const Model>> spatial = Model::load("default"), pointwise = Model::load("pointwise");
+    Expected<std::shared_ptr<const Model>> shipped = Model::load("default"), spatial = Model::load("spatial");
+    REQUIRE_MESSAGE(shipped, (shipped ? "" : shipped.error().message));
     REQUIRE_MESSAGE(spatial, (spatial ? "" : spatial.error().message));
-    REQUIRE_MESSAGE(pointwise, (pointwise ? "" : pointwise.error().message));
-    CHECK((*spatial)->name() == "default");
+    CHECK((*shipped)->name() == "default");
+    CHECK((*shipped)->kernel_size() == 1);
     CHECK((*spatial)->kernel_size() == 3);
-    CHECK((*pointwise)->kernel_size() == 1);
-    CHECK((*spatial)->dictionary_size() == 5);
-    CHECK((*spatial)->hash().size() == 7 + 32);
-    CHECK((*spatial)->hash() != (*pointwise)->hash());
-    CHECK((*spatial)->metadata().at("license") == "Apache-2.0");
+    CHECK((*shipped)->dictionary_size() == 5);
+    CHECK((*shipped)->hash().size() == 7 + 32);
+    CHECK((*shipped)->hash() != (*spatial)->hash());
+    CHECK((*shipped)->metadata().at("license") == "Apache-2.0");
     const std::vector<std::string> names = Model::available();
-    CHECK(names == std::vector<std::string>{ "default", "pointwise" });
+    CHECK(names == std::vector<std::string>{ "default", "spatial" });
 }
 
 TEST_CASE("float16 and bfloat16 models load, with another dictionary size too")
@@ -76,13 +76,13 @@ TEST_CASE("SRISP_MODEL_PATH comes before the models beside the library")
     unsetenv("SRISP_MODEL_PATH");
     REQUIRE(model);
     CHECK((*model)->path() == folder.path("./default.safetensors"));
-    CHECK(names == std::vector<std::string>{ "default", "mine", "pointwise" });
+    CHECK(names == std::vector<std::string>{ "default", "mine", "spatial" });
 }
 
 TEST_CASE("an unknown model name lists the near ones")
 {
     CHECK(message("defualt").find("unknown model 'defualt'; did you mean 'default'? (looked in ") == 0);
-    CHECK(message("x").find("unknown model 'x'; known: default, pointwise (looked in ") == 0);
+    CHECK(message("x").find("unknown model 'x'; known: default, spatial (looked in ") == 0);
     CHECK(message("") == "model name is empty");
     CHECK(message("/no/such/model.safetensors") ==
           "model '/no/such/model.safetensors': cannot open '/no/such/model.safetensors': No such file or directory");

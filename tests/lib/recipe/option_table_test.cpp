@@ -75,13 +75,13 @@ TEST_CASE("a seed is any whole number of 64 bits, at every door")
 TEST_CASE("a program's options are set by name")
 {
     Options options;
-    CHECK(set_option(options, "model", "pointwise"));
+    CHECK(set_option(options, "model", "spatial"));
     CHECK(set_option(options, "input", "linear"));
     CHECK(set_option(options, "precision", "fast"));
     CHECK(set_option(options, "seed", "3"));
     const ScratchFolder folder;
     CHECK(set_option(options, "params", folder.file("p.json", to_json(Parameters()))));
-    CHECK(options.model == "pointwise");
+    CHECK(options.model == "spatial");
     CHECK(options.input == InputEncoding::linear);
     CHECK(options.precision == Precision::fast);
     CHECK(options.seed == 3);

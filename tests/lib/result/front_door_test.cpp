@@ -128,7 +128,7 @@ TEST_CASE("what is wrong is said, and nothing is thrown")
     CHECK(has(refusal(process(kPhoto)), "records no parameters"));
     CHECK(has(refusal(process(none)), "image '" + none + "': does not exist"));
     Options options;
-    options.model = "pointwse";
-    CHECK(has(refusal(unprocess(kPhoto, kReference, options)), "did you mean 'pointwise'?"));
+    options.model = "spatail";
+    CHECK(has(refusal(unprocess(kPhoto, kReference, options)), "did you mean 'spatial'?"));
     CHECK(!set_option(options, "precison", "fast"));
 }

@@ -29,7 +29,7 @@ struct Host {
     {
         context->setStringVar("SRISP_REFERENCE", reference.c_str());
         context->setStringVar("SRISP_SOURCE", source.c_str());
-        context->setStringVar("SRISP_MODEL", pointwise_model()->path().c_str());
+        context->setStringVar("SRISP_MODEL", default_model()->path().c_str());
     }
     Expected<OCIO::ConstGroupTransformRcPtr> ask(Direction direction = Direction::reverse) const
     {
@@ -46,7 +46,7 @@ struct Host {
 
 TEST_CASE("context variables give the transform that the library's own selection gives")
 {
-    const auto model = pointwise_model();
+    const auto model = default_model();
     const auto reference = require(load_reference(kSample + "reference.dng"));
     const Thumbnail photo = require(load_photo_thumbnail(kSample + "photo.jpg"));
     const Colors grid = dense_grid(16);
@@ -148,9 +148,9 @@ TEST_CASE("what is missing or wrong is named with its variable")
     CHECK(Host(kSample + "reference.dng", "/missing.jpg").failure().find("SRISP_SOURCE='/missing.jpg': ") == 0);
     CHECK(Host(kSample + "reference.dng", kSample + "README.md").failure().find("SRISP_SOURCE: photo '") == 0);
     const Host host(kSample + "reference.dng");
-    host.context->setStringVar("SRISP_MODEL", "pointwize");
-    CHECK(host.failure().find("SRISP_MODEL: unknown model 'pointwize'") == 0);
-    const std::string spatial = std::string(SRISP_SOURCE_DIR) + "/configs/models/default.safetensors";
+    host.context->setStringVar("SRISP_MODEL", "spatail");
+    CHECK(host.failure().find("SRISP_MODEL: unknown model 'spatail'") == 0);
+    const std::string spatial = std::string(SRISP_SOURCE_DIR) + "/configs/models/spatial.safetensors";
     host.context->setStringVar("SRISP_MODEL", spatial.c_str());
-    CHECK(host.failure().find("SRISP_MODEL: model 'default': its tone map looks at 3 x 3 pixels") == 0);
+    CHECK(host.failure().find("SRISP_MODEL: model 'spatial': its tone map looks at 3 x 3 pixels") == 0);
 }

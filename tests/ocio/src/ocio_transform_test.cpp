@@ -44,7 +44,7 @@ std::vector<Parameters> parameter_sets(const Model& model)
 
 TEST_CASE("the transform gives the library's pixels over a dense grid and near white, in both directions")
 {
-    const auto model = pointwise_model();
+    const auto model = default_model();
     const Colors grid = dense_grid(48), white = near_white(20000);
     for (const Parameters& parameters : parameter_sets(*model))
         for (const Direction direction : { Direction::reverse, Direction::forward }) {
@@ -69,7 +69,7 @@ TEST_CASE("the transform gives the library's pixels over a dense grid and near w
 
 TEST_CASE("a CLF file is the same transform, and says what its label says")
 {
-    const auto model = pointwise_model();
+    const auto model = default_model();
     const Parameters parameters = sample_parameters(*model);
     const ScratchFolder folder;
     const ClfLabel label{ "id", "name <&> \"größe\"", { "first", "second & third\n" } };
@@ -96,7 +96,7 @@ TEST_CASE("a CLF file is the same transform, and says what its label says")
 
 TEST_CASE("more points make smaller errors")
 {
-    const auto model = pointwise_model();
+    const auto model = default_model();
     const Parameters parameters = sample_parameters(*model);
     const Colors grid = dense_grid(30), expected = through_library(*model, parameters, Direction::reverse, grid);
     double last = 1;
@@ -109,25 +109,25 @@ TEST_CASE("more points make smaller errors")
     }
 }
 
-TEST_CASE("models that are not pointwise, parameters of others, and sizes that no host takes are refused")
+TEST_CASE("models that look at neighbours, parameters of others, and sizes that no host takes are refused")
 {
-    const auto model = pointwise_model();
+    const auto model = default_model();
     const Parameters parameters = sample_parameters(*model);
     const auto message = [](auto result) { return result ? std::string() : result.error().message; };
     for (const int size : { 4, 130, -1 })
         CHECK(message(make_ocio_transform(*model, parameters, Direction::reverse, size)) ==
               "LUT size " + std::to_string(size) + " must be within 5 … 129");
-    const auto spatial = require(Model::load(std::string(SRISP_SOURCE_DIR) + "/configs/models/default.safetensors"));
+    const auto spatial = require(Model::load(std::string(SRISP_SOURCE_DIR) + "/configs/models/spatial.safetensors"));
     CHECK(message(make_ocio_transform(*spatial, sample_parameters(*spatial), Direction::reverse)) ==
-          "model 'default': its tone map looks at 3 x 3 pixels, and a table holds single colours: needs a pointwise "
-          "model (kernel size 1)");
-    CHECK(message(make_clf(*model, sample_parameters(*spatial), Direction::forward, {})).find("default") !=
+          "model 'spatial': its tone map looks at 3 x 3 pixels, and a table holds single colours: needs a model "
+          "with kernel size 1, such as 'default'");
+    CHECK(message(make_clf(*model, sample_parameters(*spatial), Direction::forward, {})).find("spatial") !=
           std::string::npos);
 }
 
 TEST_CASE("process undoes unprocess in OpenColorIO as well as in the library")
 {
-    const auto model = pointwise_model();
+    const auto model = default_model();
     const Parameters parameters = sample_parameters(*model);
     const Colors grid = dense_grid(40);
     const Colors raw = through_ocio(require(make_ocio_transform(*model, parameters, Direction::reverse)), grid);

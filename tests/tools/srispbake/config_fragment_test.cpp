@@ -83,7 +83,7 @@ TEST_CASE("a config gets the looks and colour spaces, and every line that it had
     CHECK(report.neutral_folder == folder.path("luts"));
     CHECK(std::filesystem::exists(folder.path("luts/srisp_neutral.process.clf")));
     const std::string added = added_lines(original, text_of(config));
-    CHECK(added.rfind("  SRISP_MODEL: pointwise\n  SRISP_REFERENCE: srisp_neutral\n  SRISP_SOURCE: \"\"\n", 0) == 0);
+    CHECK(added.rfind("  SRISP_MODEL: default\n  SRISP_REFERENCE: srisp_neutral\n  SRISP_SOURCE: \"\"\n", 0) == 0);
     CHECK(added.find("name: srisp camera RGB") != std::string::npos);
 
     const auto loaded = OCIO::Config::CreateFromFile(config.c_str());

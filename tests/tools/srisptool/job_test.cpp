@@ -30,14 +30,14 @@ TEST_CASE("a job holds what the command says, paths absolute")
     const std::filesystem::path before = std::filesystem::current_path();
     std::filesystem::current_path(scratch.path());
     const nlohmann::json found =
-        job({ "--srisp-unprocess:params=\"p:q.json\":model=pointwise:input=linear:precision=fast:seed=7:hold=1",
+        job({ "--srisp-unprocess:params=\"p:q.json\":model=spatial:input=linear:precision=fast:seed=7:hold=1",
               "r #1.dng" });
     std::filesystem::current_path(before);
     CHECK(found == nlohmann::json{ { "format", "srisp-recipe-1" },
                                    { "direction", "reverse" },
                                    { "reference", reference },
                                    { "parameters", parameters },
-                                   { "model", "pointwise" },
+                                   { "model", "spatial" },
                                    { "input", "linear" },
                                    { "precision", "fast" },
                                    { "seed", 7 },
@@ -74,8 +74,8 @@ TEST_CASE("what is missing is said with its name, before anything runs")
           "1: --srisp-process: parameter file '" + scratch.path() + "' is a folder, not a file");
     CHECK(failure({ "--srisp-process:model=a/no.safetensors" }) ==
           "1: --srisp-process: model 'a/no.safetensors' does not exist");
-    CHECK(failure({ "--srisp-process:model=pointwize" })
-              .rfind("2: --srisp-process: unknown model 'pointwize'; did you mean 'pointwise'?", 0) == 0);
+    CHECK(failure({ "--srisp-process:model=spatail" })
+              .rfind("2: --srisp-process: unknown model 'spatail'; did you mean 'spatial'?", 0) == 0);
     CHECK(failure({ "--srisp-save-params", "/no/such/p.json" }) ==
           "1: --srisp-save-params: the folder of '/no/such/p.json' does not exist");
     CHECK(failure({ "--srisp-save-params", scratch.path() }) ==

@@ -127,7 +127,7 @@ void check_all(const GoldenValues& file)
 
 TEST_CASE("the LibTorch network matches the golden values of the models that ship")
 {
-    for (const char* name : { "default", "pointwise" })
+    for (const char* name : { "default", "spatial" })
         check_all(shipped_golden_values(name));
 }
 

@@ -143,7 +143,7 @@ TEST_CASE("library and LibTorch compute the same with new models, as training st
 
 TEST_CASE("library and LibTorch compute the same with the models that ship")
 {
-    for (const char* name : { "default", "pointwise" }) {
+    for (const char* name : { "default", "spatial" }) {
         INFO("model ", name);
         check_model(std::string(SRISP_SOURCE_DIR) + "/configs/models/" + name + ".safetensors", 5);
     }

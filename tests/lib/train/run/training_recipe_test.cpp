@@ -99,6 +99,15 @@ TEST_CASE("every installed recipe can be read, and says what it is for")
     }
 }
 
+TEST_CASE("the model that ships looks at single pixels, and the paper's model and its ablations at neighbours")
+{
+    for (const char* name : { "default", "finetune" })
+        CHECK_MESSAGE(load_recipe(name, {})->recipe.model.kernel_size == "1", std::string(name));
+    for (const char* name : { "spatial", "paper", "no_dps", "merged_gain", "static_tone", "no_mt", "mt_real_reference",
+                              "real_pairs", "pseudo_pairs" })
+        CHECK_MESSAGE(load_recipe(name, {})->recipe.model.kernel_size == "3", std::string(name));
+}
+
 TEST_CASE("the model of every installed recipe takes a step")
 {
     ProcessGroup alone;
