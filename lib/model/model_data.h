@@ -23,14 +23,24 @@ struct DenseLayer {
     std::vector<float> weight, bias;
 };
 
-/// A convolution layer: weight is [outputs, inputs, kernel, kernel], or [atoms, outputs, …] in a dictionary, and bias
-/// likewise.
+/// A convolution layer of a tone map: weight is [outputs, inputs, kernel, kernel], or [atoms, outputs, …] in a
+/// dictionary, and bias likewise.
 struct ConvolutionWeights {
     int inputs = 0, outputs = 0, taps = 0;
     std::vector<float> weight, bias;
 };
 
-using EncoderWeights = std::vector<ConvolutionWeights>;
+/// Outputs of an encoder's layer whose weights lie side by side; each layer has a multiple of them.
+constexpr int kEncoderGroup = 32;
+
+/// A 3×3 convolution with stride 2: weight is [outputs / kEncoderGroup, 3, 3, inputs, kEncoderGroup], in the order in
+/// which kernels read it.
+struct EncoderLayer {
+    int inputs = 0, outputs = 0;
+    std::vector<float> weight, bias;
+};
+
+using EncoderWeights = std::vector<EncoderLayer>;
 
 /// What chooses the parameters of one block: project and head once per dictionary (tone: one per layer).
 struct BlockSelector {
@@ -46,11 +56,12 @@ struct ModelData {
     std::map<std::string, std::string> metadata;
     int kernel_size = 3, dictionary_size = 5;
     bool perceptual_encoder_input = true;
-    bool white_stays_white = false; ///< the least white-balance gain is 1 (srisp-6); else the green one is (srisp-1)
+    int selection_size = 256;       ///< at how many pixels a side selection works; at most a thumbnail's
+    bool white_stays_white = false; ///< the least white-balance gain is 1 (srisp-7); else the green one is (srisp-1)
 
     EncoderWeights source_encoder, reference_encoder;
     std::optional<DenseLayer> source_statistics, reference_statistics, anchor;
-    std::vector<DenseLayer> anchor_network; ///< empty in srisp-1
+    std::vector<DenseLayer> anchor_network, anchor_deviation; ///< empty in srisp-1
     DenseLayer fuse;
     BlockSelector tone, gamma, color, white_balance, gain;
 

@@ -2,6 +2,7 @@
 #include "bake_choice.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <future>
 
 #include <srisp/neutral_rendition.h>
@@ -118,6 +119,25 @@ Parameters chosen_parameters(const Model& model, const Thumbnail& photo, const R
     return parameters;
 }
 
+/// All that is baked and compared gets the same brightness.
+void make_brighter(BakeChoice& choice, const BakeOptions& options)
+{
+    Parameters& parameters = choice.pointwise.parameters;
+    if (!options.parameters.empty())
+        if (const std::string note = brightness_note(parameters); !note.empty())
+            choice.notes.push_back(note);
+    if (options.brightness.empty())
+        return;
+    Options parsed;
+    require(set_option(parsed, "brightness", options.brightness));
+    const std::string photo = options.source.empty() ? options.reference : options.source;
+    const float before = parameters.brightness_ev;
+    require(choose_brightness(parameters, *parsed.brightness, options.seed,
+                              std::filesystem::path(photo).filename().string(), &choice.notes));
+    if (choice.full)
+        require(choose_brightness(choice.full->parameters, { parameters.brightness_ev - before }, 0, {}));
+}
+
 } // namespace
 
 BakeChoice make_choice(const BakeOptions& options)
@@ -134,8 +154,10 @@ BakeChoice make_choice(const BakeOptions& options)
         choice.photo = read_photo_sample(options.source, options.allow_partial);
     choice.reference = require(reference.get());
     check_interrupt();
-    if (!choice.reference)
+    if (!choice.reference) {
+        make_brighter(choice, options);
         return choice;
+    }
     choice.notes = choice.reference->notes;
     if (!choice.photo) {
         choice.photo = sample_of_thumbnail(neutral_rendition(*choice.reference), "the reference's neutral rendition");
@@ -151,6 +173,7 @@ BakeChoice make_choice(const BakeOptions& options)
         choice.pointwise.parameters =
             chosen_parameters(*choice.pointwise.model, choice.photo->thumbnail, *choice.reference, &choice.notes);
     choice.full = full.get();
+    make_brighter(choice, options);
     return choice;
 }
 

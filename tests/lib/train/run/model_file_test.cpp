@@ -141,7 +141,7 @@ TEST_CASE("what no tool can run is saved too, and only the trainer reads it")
         Expected<std::unique_ptr<ModelData>> refused = parse_model(contents(path), "model");
         REQUIRE(!refused);
         CHECK(refused.error().message ==
-              "model: metadata 'format' is 'srisp-baseline-1', must be 'srisp-1' or 'srisp-6'");
+              "model: metadata 'format' is 'srisp-baseline-1', must be 'srisp-1' or 'srisp-7'");
     }
 }
 
