@@ -33,7 +33,7 @@ const std::vector<Option>& option_table()
         { "precision", kProgram | kQuery | files | kUnprocess | kProcess, T::choice, &Recipe::precision,
           { "float32", "fast" }, "float32", "KIND",
           "fast is one and a half to nearly two times as fast, with an error well below one code value of 10 bits" },
-        { "brightness", kProgram | kQuery | files | kUnprocess | kParams, T::brightness, &Recipe::brightness, {}, "0",
+        { "brightness", kProgram | kQuery | files | kUnprocess | kParams, T::brightness, &Recipe::brightness, {}, "",
           "EV", "make the result that much brighter, or darker below 0; sample draws from how unsure the brightness is, "
           "by the seed and the photo's name" },
         { "hold", files | kUnprocess, T::flag, &Recipe::hold, {}, "0", "1",

@@ -100,7 +100,7 @@ private:
 
     void apply_tone_map()
     {
-        const auto tone_map = mix_tone_map(m_model.tone_reverse, m_parameters.tone_weights, ToneMethod::winograd);
+        const auto tone_map = mix_tone_map(m_model.tone_reverse, m_parameters.tone_weights, ToneMethod::plain);
         const auto runner = tone_map->make_runner();
         const int size = m_running.size();
         PlanarThumbnail result(size);

@@ -22,7 +22,7 @@ struct ModelSettings {
     /// the four DND cameras and a mild one. Not read from recipes; a trainer may take them from its pack.
     std::vector<std::array<float, 9>> initial_color;
 
-    /// No white-balance gain is below 1 and global gains below 1 rebuild clipped highlights, as in srisp-6: a camera's
+    /// No white-balance gain is below 1 and global gains below 1 rebuild clipped highlights, as in srisp-7: a camera's
     /// clipped white is white then. What is left of the gains is the global one's. Not read from recipes: new models
     /// have it where they can, and a model file says whether its model has.
     bool white_stays_white = true;
