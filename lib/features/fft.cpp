@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "features/fft.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "features/lanes.h"
@@ -155,12 +155,12 @@ void transpose(float* plane)
 void gather(const float* cube, float* rows)
 {
     for (int x = 0; x < kSide; ++x)
-        std::copy_n(cube + x * kPlane, kSide, rows + x * kSide);
+        std::memcpy(rows + x * kSide, cube + x * kPlane, kSide * sizeof(float));
 }
 void scatter(const float* rows, float* cube)
 {
     for (int x = 0; x < kSide; ++x)
-        std::copy_n(rows + x * kSide, kSide, cube + x * kPlane);
+        std::memcpy(cube + x * kPlane, rows + x * kSide, kSide * sizeof(float));
 }
 
 } // namespace
