@@ -24,8 +24,8 @@ struct GoldenValues {
         REQUIRE_MESSAGE(file, (file ? "" : file.error().message));
         values.merge(file->tensors);
     }
-    /// Of the running thumbnail after a block, the files have every n-th row and column.
-    int thumbnail_step() const { return 256 / static_cast<int>(values.at("thumb.after_tone").shape[0]); }
+    /// Of the running thumbnail after a block, `size` pixels a side, the files have every n-th row and column.
+    int thumbnail_step(int size) const { return size / static_cast<int>(values.at("thumb.after_tone").shape[0]); }
 };
 
 /// Of a model that ships, by tests/golden/method.py.

@@ -119,6 +119,23 @@ ModelFile random_model(int kernel_size, std::uint64_t seed, int dictionary_size)
     return model;
 }
 
+ModelFile random_srisp_7_model(int kernel_size, std::uint64_t seed, int selection_size, double brightness_sd_ev)
+{
+    ModelFile model = random_model(kernel_size, seed);
+    Random random(seed + 1);
+    model.metadata["format"] = "srisp-7";
+    model.metadata["selection_size"] = std::to_string(selection_size);
+    const std::int64_t widths[] = { 217, 256, 256, 256, 3 };
+    for (int l = 0; l < 4; ++l)
+        add_layer(model, random, "anchor_network." + std::to_string(l), { widths[l + 1], widths[l] }, false);
+    for (float& weight : model.tensors["anchor_network.3.weight"].values)
+        weight *= 0.1f;
+    add_layer(model, random, "anchor_deviation.0", { 32, 256 }, false);
+    model.tensors["anchor_deviation.1.weight"] = { { 1, 32 }, std::vector<float>(32) };
+    model.tensors["anchor_deviation.1.bias"] = { { 1 }, { float(std::log(brightness_sd_ev * std::log(2.0))) } };
+    return model;
+}
+
 std::string ModelFile::bytes() const
 {
     nlohmann::json header;

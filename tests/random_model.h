@@ -44,5 +44,9 @@ struct ModelFile {
 
 ModelFile random_model(int kernel_size, std::uint64_t seed, int dictionary_size = 5);
 
+/// The same of the `srisp-7` format; it tells a constant deviation of the brightness.
+ModelFile random_srisp_7_model(int kernel_size, std::uint64_t seed, int selection_size = 64,
+                               double brightness_sd_ev = 0.5);
+
 /// Writes a text or bytes to a file.
 void write_file(const std::string& path, const std::string& bytes);

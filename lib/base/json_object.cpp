@@ -42,6 +42,12 @@ std::string JsonObjectReader::take_text(const std::string& key)
     return m_error.empty() ? value.get<std::string>() : std::string();
 }
 
+std::optional<float> JsonObjectReader::take_optional_number(const std::string& key)
+{
+    const json* const value = take_optional(key);
+    return value ? std::optional<float>(as_number(*value, key)) : std::nullopt;
+}
+
 std::vector<std::vector<float>> JsonObjectReader::take_lists(const std::string& key, std::size_t count)
 {
     std::vector<std::vector<float>> lists;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ public:
     const json* take_optional(const std::string& key);
     std::string take_text(const std::string& key);
     float take_number(const std::string& key) { return as_number(take(key), key); }
+    /// None where the key is missing.
+    std::optional<float> take_optional_number(const std::string& key);
     std::vector<float> take_list(const std::string& key) { return as_list(take(key), key); }
     std::vector<std::vector<float>> take_lists(const std::string& key, std::size_t count);
 

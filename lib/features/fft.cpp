@@ -3,7 +3,10 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <utility>
+
+#include "features/lanes.h"
 
 namespace srisp {
 
@@ -11,13 +14,15 @@ namespace {
 
 constexpr int kSide = CubeFft::kSide, kPlane = kSide * kSide;
 
+constexpr int kTurns = 3 * kSide / 4; // most that the steps use
+
 /// exp(−2πi j / 32)
 struct Roots {
-    std::array<float, kSide / 2> cosine, sine;
+    std::array<float, kTurns> cosine, sine;
 
     Roots()
     {
-        for (int j = 0; j < kSide / 2; ++j) {
+        for (int j = 0; j < kTurns; ++j) {
             const double angle = 2 * M_PI * j / kSide;
             cosine[j] = static_cast<float>(std::cos(angle));
             sine[j] = static_cast<float>(-std::sin(angle));
@@ -25,50 +30,118 @@ struct Roots {
     }
 };
 
+/// Eight complex numbers, of eight columns.
+struct Complex {
+    Lanes re, im;
+};
+
+inline __attribute__((always_inline)) void load(const float* real, const float* imaginary, Complex& to)
+{
+    srisp::load(real, to.re);
+    srisp::load(imaginary, to.im);
+}
+
+inline __attribute__((always_inline)) void store(const Complex& from, float* real, float* imaginary)
+{
+    srisp::store(from.re, real);
+    srisp::store(from.im, imaginary);
+}
+
+/// a = a · (c + is)
+inline __attribute__((always_inline)) void turn(Complex& a, float c, float s)
+{
+    const Lanes re = a.re * c - a.im * s;
+    a.im = a.re * s + a.im * c;
+    a.re = re;
+}
+
 const Roots& roots()
 {
     static const Roots table;
     return table;
 }
 
-/// Frequencies come out with their bits reversed.
-void forward_columns(float* real, float* imaginary, int stride)
+/// Two steps at once, on what is 4, then 2 `quarter`s apart: they pass memory once.
+inline __attribute__((always_inline)) void forward_steps(float* real, float* imaginary, int quarter)
 {
-    for (int half = kSide / 2; half > 0; half /= 2)
-        for (int j = 0; j < half; ++j) {
-            const float c = roots().cosine[j * (kSide / 2) / half], s = roots().sine[j * (kSide / 2) / half];
-            for (int block = j; block < kSide; block += 2 * half) {
-                float *const ar = real + block * stride, *const ai = imaginary + block * stride;
-                float *const br = ar + half * stride, *const bi = ai + half * stride;
-                for (int i = 0; i < kSide; ++i) {
-                    const float dr = ar[i] - br[i], di = ai[i] - bi[i];
-                    ar[i] += br[i];
-                    ai[i] += bi[i];
-                    br[i] = dr * c - di * s;
-                    bi[i] = dr * s + di * c;
-                }
+    const Roots& root = roots();
+    const int step = kSide / 4 / quarter, apart = quarter * kSide;
+    for (int j = 0; j < quarter; ++j)
+        for (int block = j; block < kSide; block += 4 * quarter)
+            for (int i = block * kSide; i < (block + 1) * kSide; i += kLanes) {
+                float *const re = real + i, *const im = imaginary + i;
+                Complex x0, x1, x2, x3;
+                load(re, im, x0);
+                load(re + apart, im + apart, x1);
+                load(re + 2 * apart, im + 2 * apart, x2);
+                load(re + 3 * apart, im + 3 * apart, x3);
+                const Complex u0{ x0.re + x2.re, x0.im + x2.im }, u1{ x1.re + x3.re, x1.im + x3.im };
+                const Complex v0{ x0.re - x2.re, x0.im - x2.im }, v1{ x1.im - x3.im, x3.re - x1.re }; // v1: · −i
+                Complex y1{ u0.re - u1.re, u0.im - u1.im }, y2{ v0.re + v1.re, v0.im + v1.im },
+                    y3{ v0.re - v1.re, v0.im - v1.im };
+                turn(y1, root.cosine[2 * j * step], root.sine[2 * j * step]);
+                turn(y2, root.cosine[j * step], root.sine[j * step]);
+                turn(y3, root.cosine[3 * j * step], root.sine[3 * j * step]);
+                store({ u0.re + u1.re, u0.im + u1.im }, re, im);
+                store(y1, re + apart, im + apart);
+                store(y2, re + 2 * apart, im + 2 * apart);
+                store(y3, re + 3 * apart, im + 3 * apart);
             }
+}
+
+/// The same back.
+inline __attribute__((always_inline)) void inverse_steps(float* real, float* imaginary, int quarter)
+{
+    const Roots& root = roots();
+    const int step = kSide / 4 / quarter, apart = quarter * kSide;
+    for (int j = 0; j < quarter; ++j)
+        for (int block = j; block < kSide; block += 4 * quarter)
+            for (int i = block * kSide; i < (block + 1) * kSide; i += kLanes) {
+                float *const re = real + i, *const im = imaginary + i;
+                Complex x0, x1, x2, x3;
+                load(re, im, x0);
+                load(re + apart, im + apart, x1);
+                load(re + 2 * apart, im + 2 * apart, x2);
+                load(re + 3 * apart, im + 3 * apart, x3);
+                turn(x1, root.cosine[2 * j * step], -root.sine[2 * j * step]);
+                turn(x2, root.cosine[j * step], -root.sine[j * step]);
+                turn(x3, root.cosine[3 * j * step], -root.sine[3 * j * step]);
+                const Complex a0{ x0.re + x1.re, x0.im + x1.im }, a1{ x0.re - x1.re, x0.im - x1.im };
+                const Complex b0{ x2.re + x3.re, x2.im + x3.im }, b1{ x3.im - x2.im, x2.re - x3.re }; // b1: · i
+                store({ a0.re + b0.re, a0.im + b0.im }, re, im);
+                store({ a1.re + b1.re, a1.im + b1.im }, re + apart, im + apart);
+                store({ a0.re - b0.re, a0.im - b0.im }, re + 2 * apart, im + 2 * apart);
+                store({ a1.re - b1.re, a1.im - b1.im }, re + 3 * apart, im + 3 * apart);
+            }
+}
+
+/// The step between neighbours, the same in both directions.
+inline __attribute__((always_inline)) void neighbour_step(float* real, float* imaginary)
+{
+    for (int row = 0; row < kPlane; row += 2 * kSide)
+        for (int i = row; i < row + kSide; i += kLanes) {
+            Complex a, b;
+            load(real + i, imaginary + i, a);
+            load(real + i + kSide, imaginary + i + kSide, b);
+            store({ a.re + b.re, a.im + b.im }, real + i, imaginary + i);
+            store({ a.re - b.re, a.im - b.im }, real + i + kSide, imaginary + i + kSide);
         }
 }
 
-/// From reversed order back.
-void inverse_columns(float* real, float* imaginary, int stride)
+/// 32 columns side by side. Frequencies come out with their bits reversed.
+SRISP_WIDE_LANES void forward_columns(float* real, float* imaginary)
 {
-    for (int half = 1; half < kSide; half *= 2)
-        for (int j = 0; j < half; ++j) {
-            const float c = roots().cosine[j * (kSide / 2) / half], s = -roots().sine[j * (kSide / 2) / half];
-            for (int block = j; block < kSide; block += 2 * half) {
-                float *const ar = real + block * stride, *const ai = imaginary + block * stride;
-                float *const br = ar + half * stride, *const bi = ai + half * stride;
-                for (int i = 0; i < kSide; ++i) {
-                    const float tr = br[i] * c - bi[i] * s, ti = br[i] * s + bi[i] * c;
-                    br[i] = ar[i] - tr;
-                    bi[i] = ai[i] - ti;
-                    ar[i] += tr;
-                    ai[i] += ti;
-                }
-            }
-        }
+    forward_steps(real, imaginary, kSide / 4);
+    forward_steps(real, imaginary, kSide / 16);
+    neighbour_step(real, imaginary);
+}
+
+/// From reversed order back.
+SRISP_WIDE_LANES void inverse_columns(float* real, float* imaginary)
+{
+    neighbour_step(real, imaginary);
+    inverse_steps(real, imaginary, kSide / 16);
+    inverse_steps(real, imaginary, kSide / 4);
 }
 
 void transpose(float* plane)
@@ -76,6 +149,18 @@ void transpose(float* plane)
     for (int y = 1; y < kSide; ++y)
         for (int x = 0; x < y; ++x)
             std::swap(plane[y * kSide + x], plane[x * kSide + y]);
+}
+
+/// Rows of one y, from all planes of a cube, and back.
+void gather(const float* cube, float* rows)
+{
+    for (int x = 0; x < kSide; ++x)
+        std::memcpy(rows + x * kSide, cube + x * kPlane, kSide * sizeof(float));
+}
+void scatter(const float* rows, float* cube)
+{
+    for (int x = 0; x < kSide; ++x)
+        std::memcpy(cube + x * kPlane, rows + x * kSide, kSide * sizeof(float));
 }
 
 } // namespace
@@ -90,18 +175,25 @@ int CubeFft::place(int k)
 
 void CubeFft::transform_x(Columns columns)
 {
-    for (int y = 0; y < kSide; ++y)
-        columns(real() + y * kSide, imaginary() + y * kSide, kPlane);
+    // In a copy: what lies 4 KB apart gets into each other's way in the cache.
+    float rows_real[kPlane], rows_imaginary[kPlane];
+    for (int y = 0; y < kSide; ++y) {
+        gather(real() + y * kSide, rows_real);
+        gather(imaginary() + y * kSide, rows_imaginary);
+        columns(rows_real, rows_imaginary);
+        scatter(rows_real, real() + y * kSide);
+        scatter(rows_imaginary, imaginary() + y * kSide);
+    }
 }
 
 void CubeFft::transform_planes(Columns columns)
 {
     for (int x = 0; x < kSide; ++x) {
         float *const plane_real = real() + x * kPlane, *const plane_imaginary = imaginary() + x * kPlane;
-        columns(plane_real, plane_imaginary, kSide);
+        columns(plane_real, plane_imaginary);
         transpose(plane_real);
         transpose(plane_imaginary);
-        columns(plane_real, plane_imaginary, kSide);
+        columns(plane_real, plane_imaginary);
     }
 }
 

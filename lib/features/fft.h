@@ -24,8 +24,8 @@ public:
     void inverse();
 
 private:
-    /// Transforms 32 columns side by side, whose 32 values are `stride` apart, in one of the directions.
-    using Columns = void (*)(float* real, float* imaginary, int stride);
+    /// Transforms the 32 columns of a plane in one of the directions.
+    using Columns = void (*)(float* real, float* imaginary);
     void transform_x(Columns columns);
     /// Along both other axes, which change places.
     void transform_planes(Columns columns);

@@ -20,6 +20,8 @@ std::vector<float> block_means(const PlanarImage& image, int channel)
     const float* const plane = image.planes.plane(channel);
     const int height = image.height, width = image.width;
     const int rows = std::max(1, height / kSide), columns = std::max(1, width / kSide);
+    if (rows == 1 && columns == 1)
+        return { plane, plane + static_cast<std::ptrdiff_t>(height) * width };
     std::vector<float> means;
     means.reserve(static_cast<std::size_t>(height / rows) * (width / columns));
     for (int y = 0; y + rows <= height; y += rows)
@@ -114,17 +116,31 @@ namespace {
 constexpr double kFloor = 1e-3;
 
 /// Σ ln max(v, kFloor): logarithms of products of numbers in [1e-3, 1], as many as a double holds with room to spare.
-double sum_of_logs(const std::vector<float>& values)
+double sum_of_logs(const float* values, std::size_t count)
 {
     constexpr std::size_t factors = 64;
     double sum = 0;
-    for (std::size_t i = 0; i < values.size(); i += factors) {
+    for (std::size_t i = 0; i < count; i += factors) {
         double product = 1;
-        for (std::size_t k = i; k < std::min(i + factors, values.size()); ++k)
+        for (std::size_t k = i; k < std::min(i + factors, count); ++k)
             product *= std::max<double>(values[k], kFloor);
         sum += std::log(product);
     }
     return sum;
+}
+
+/// Numbers of one channel, to their places among the statistics.
+void add_statistics(const float* values, std::size_t count, const Quantiles& quantile, int channel,
+                    std::array<float, 12>& result)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        sum += values[i];
+    const double median = quantile(0.5), bright = quantile(0.98);
+    const double numbers[] = { std::log(std::max(sum / count, kFloor)), sum_of_logs(values, count) / count,
+                               std::log(std::max(median, kFloor)), std::log(std::max(bright, kFloor)) };
+    for (int i = 0; i < 4; ++i)
+        result[i * 3 + channel] = static_cast<float>(numbers[i] * 0.5 + 1);
 }
 
 } // namespace
@@ -133,17 +149,8 @@ std::array<float, 12> statistics(Planes image, std::size_t count)
 {
     std::array<float, 12> result;
     for (int c = 0; c < 3; ++c) {
-        std::vector<float> values(image.plane(c), image.plane(c) + count);
-        double sum = 0;
-        for (const float v : values)
-            sum += v;
-        const double log_sum = sum_of_logs(values);
-        const Quantiles quantile(std::move(values));
-        const double median = quantile(0.5), bright = quantile(0.98);
-        const double numbers[] = { std::log(std::max(sum / count, kFloor)), log_sum / count,
-                                   std::log(std::max(median, kFloor)), std::log(std::max(bright, kFloor)) };
-        for (int i = 0; i < 4; ++i)
-            result[i * 3 + c] = static_cast<float>(numbers[i] * 0.5 + 1);
+        const float* const values = image.plane(c);
+        add_statistics(values, count, Quantiles({ values, values + count }), c, result);
     }
     return result;
 }
@@ -176,35 +183,63 @@ std::vector<float> bright_ones(const std::vector<float>& values, const std::vect
     return result;
 }
 
-} // namespace
+using ChannelQuantiles = std::array<Quantiles, 3>;
 
-std::array<float, kQuantileFeatures> quantile_features(const ReducedImage& image)
+ChannelQuantiles channel_quantiles(const ReducedImage& image)
 {
-    std::vector<float> channels[4] = { image[0], image[1], image[2], std::vector<float>(image[0].size()) };
-    for (std::size_t i = 0; i < channels[3].size(); ++i)
-        channels[3][i] = static_cast<float>((double(channels[0][i]) + channels[1][i] + channels[2][i]) / 3);
+    return { Quantiles(image[0]), Quantiles(image[1]), Quantiles(image[2]) };
+}
 
+/// The mean of R, G and B of each pixel.
+std::vector<float> means_of(const ReducedImage& image)
+{
+    std::vector<float> means(image[0].size());
+    for (std::size_t i = 0; i < means.size(); ++i)
+        means[i] = static_cast<float>((double(image[0][i]) + image[1][i] + image[2][i]) / 3);
+    return means;
+}
+
+std::array<float, kQuantileFeatures> quantile_features(const ReducedImage& image, const ChannelQuantiles& channels)
+{
+    const std::vector<float> means = means_of(image);
+    const Quantiles mean_quantiles(means);
     std::array<float, kQuantileFeatures> features;
     auto next = features.begin();
-    double bright = 0; // of the means: they come last
-    for (const std::vector<float>& channel : channels) {
-        const Quantiles quantile(channel);
+    for (const Quantiles* quantile : { &channels[0], &channels[1], &channels[2], &mean_quantiles })
         for (const double q : kQuantiles)
-            *next++ = static_cast<float>(std::log(std::max(quantile(q), kDarkest)) * 0.5 + 1);
-        bright = quantile(kBright);
+            *next++ = static_cast<float>(std::log(std::max((*quantile)(q), kDarkest)) * 0.5 + 1);
+    for (const std::vector<float>& channel : image) {
+        const auto clipped = std::count_if(channel.begin(), channel.end(), [](float v) { return v > kClipped; });
+        *next++ = static_cast<float>(clipped) / static_cast<float>(channel.size());
     }
-    for (int c = 0; c < 3; ++c) {
-        const auto clipped =
-            std::count_if(channels[c].begin(), channels[c].end(), [](float v) { return v > kClipped; });
-        *next++ = static_cast<float>(clipped) / static_cast<float>(channels[c].size());
-    }
-    const std::vector<float> red = log_ratios(channels[0], channels[1]), blue = log_ratios(channels[2], channels[1]);
+    const double bright = mean_quantiles(kBright);
+    const std::vector<float> red = log_ratios(image[0], image[1]), blue = log_ratios(image[2], image[1]);
     for (const std::vector<float>& ratios :
-         { red, blue, bright_ones(red, channels[3], bright), bright_ones(blue, channels[3], bright) }) {
+         { red, blue, bright_ones(red, means, bright), bright_ones(blue, means, bright) }) {
         const Quantiles quantile(ratios);
         for (const double q : kColorQuantiles)
             *next++ = static_cast<float>(quantile(q));
     }
+    return features;
+}
+
+} // namespace
+
+std::array<float, kQuantileFeatures> quantile_features(const ReducedImage& image)
+{
+    return quantile_features(image, channel_quantiles(image));
+}
+
+ColorFeatures color_features(const PlanarImage& image, const ReducedImage& small)
+{
+    const std::size_t count = static_cast<std::size_t>(image.height) * image.width;
+    const ChannelQuantiles quantiles = channel_quantiles(small);
+    ColorFeatures features{ {}, quantile_features(small, quantiles) };
+    if (small[0].size() != count)
+        features.statistics = statistics(image.planes, count);
+    else
+        for (int c = 0; c < 3; ++c)
+            add_statistics(image.planes.plane(c), count, quantiles[c], c, features.statistics);
     return features;
 }
 

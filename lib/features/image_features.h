@@ -44,4 +44,12 @@ constexpr int kQuantileFeatures = 71;
 /// at or above its quantile 0.75. Quantiles interpolate linearly at q (count − 1).
 std::array<float, kQuantileFeatures> quantile_features(const ReducedImage& image);
 
+/// `statistics` of an image and `quantile_features` of its reduction: where that has all of its pixels, they are sorted
+/// once for both.
+struct ColorFeatures {
+    std::array<float, 12> statistics;
+    std::array<float, kQuantileFeatures> quantiles;
+};
+ColorFeatures color_features(const PlanarImage& image, const ReducedImage& small);
+
 } // namespace srisp

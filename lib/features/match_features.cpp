@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <vector>
 
 #include "base/matrix3.h"
 #include "features/fft.h"
+#include "features/lanes.h"
 
 namespace srisp {
 
@@ -28,27 +31,94 @@ constexpr double kSmoothing[] = { 0.5, 1 }; // cells
 constexpr float kSharpness = 25, kNegligible = -20;
 constexpr float kNoMatch = 1e-6f; // least max c: below is rounding
 
-/// As a typical camera would see it.
-ReducedImage seen_by_camera(const ReducedImage& linear, double gamma)
+/// ln of each value; at most kLanes - 1 more follow.
+SRISP_WIDE_LANES std::array<std::vector<float>, 3> logarithms(const ReducedImage& image)
 {
-    const float exponent = static_cast<float>(gamma / kSourceGamma);
-    ReducedImage powers = linear, result = linear;
-    for (std::vector<float>& channel : powers)
-        for (float& v : channel)
-            v = std::pow(v, exponent);
-    for (std::size_t i = 0; i < powers[0].size(); ++i)
+    const std::size_t count = image[0].size(), rounded = (count + kLanes - 1) / kLanes * kLanes;
+    std::array<std::vector<float>, 3> logs;
+    for (int c = 0; c < 3; ++c) {
+        logs[c] = image[c];
+        logs[c].resize(rounded, 1.0f);
+        for (std::size_t i = 0; i < rounded; i += kLanes) {
+            Lanes v;
+            load(&logs[c][i], v);
+            raise(v, std::numeric_limits<float>::min());
+            take_log(v);
+            store(v, &logs[c][i]);
+        }
+    }
+    return logs;
+}
+
+/// As a typical camera would see it; at most kLanes - 1 more values follow. `logs`: of the linear image.
+SRISP_WIDE_LANES ReducedImage seen_by_camera(const std::array<std::vector<float>, 3>& logs, double gamma)
+{
+    const auto exponent = static_cast<float>(gamma / kSourceGamma);
+    const std::size_t count = logs[0].size();
+    ReducedImage result = { std::vector<float>(count), std::vector<float>(count), std::vector<float>(count) };
+    for (std::size_t i = 0; i < count; i += kLanes) {
+        Lanes v[3];
+        for (int c = 0; c < 3; ++c) {
+            load(&logs[c][i], v[c]);
+            v[c] *= exponent;
+            take_exp(v[c]);
+        }
         for (int c = 0; c < 3; ++c)
-            result[c][i] =
-                kCamera[c * 3] * powers[0][i] + kCamera[c * 3 + 1] * powers[1][i] + kCamera[c * 3 + 2] * powers[2][i];
+            store(kCamera[c * 3] * v[0] + kCamera[c * 3 + 1] * v[1] + kCamera[c * 3 + 2] * v[2], &result[c][i]);
+    }
     return result;
 }
 
-double mean(const std::vector<float>& values)
+double mean(const std::vector<float>& values, std::size_t count)
 {
     double sum = 0;
-    for (const float v : values)
-        sum += v;
-    return sum / static_cast<double>(values.size());
+    for (std::size_t i = 0; i < count; ++i)
+        sum += values[i];
+    return sum / static_cast<double>(count);
+}
+
+/// Where each pixel of an image lies among the cells, and what it weighs.
+struct Places {
+    std::vector<float> x, y, z, weight;
+};
+
+inline __attribute__((always_inline)) void to_coordinate(Lanes& distance, float cell_size)
+{
+    distance = distance / cell_size + float(kSide / 2);
+    raise(distance, 0);
+    limit(distance, kLastCoordinate);
+}
+
+/// x: brightness, y: ln(R / G), z: ln(B / G); at most kLanes - 1 pixels of no weight follow.
+SRISP_WIDE_LANES Places places_of(const ReducedImage& image, float dark)
+{
+    const std::size_t count = image[0].size(), rounded = (count + kLanes - 1) / kLanes * kLanes;
+    Places places{ std::vector<float>(rounded), std::vector<float>(rounded), std::vector<float>(rounded),
+                   std::vector<float>(rounded) };
+    for (std::size_t i = 0; i < count; i += kLanes) {
+        Lanes rgb[3] = {};
+        for (int c = 0; c < 3; ++c)
+            std::memcpy(&rgb[c], &image[c][i], std::min<std::size_t>(kLanes, count - i) * sizeof(float));
+        Lanes brightness = (rgb[0] + rgb[1] + rgb[2]) / 3.0f;
+        const IntLanes weighs = (rgb[0] < kClipped) & (rgb[1] < kClipped) & (rgb[2] < kClipped) & (brightness > dark);
+        store(weighs ? brightness : Lanes{}, &places.weight[i]);
+        for (Lanes& v : rgb) {
+            raise(v, kDarkestColor);
+            take_log(v);
+        }
+        raise(brightness, kDarkestMean);
+        take_log(brightness);
+        Lanes x = brightness - kBrightnessCenter, y = rgb[0] - rgb[1], z = rgb[2] - rgb[1];
+        to_coordinate(x, kBrightnessCell);
+        to_coordinate(y, kColorCell);
+        to_coordinate(z, kColorCell);
+        store(x, &places.x[i]);
+        store(y, &places.y[i]);
+        store(z, &places.z[i]);
+    }
+    for (float& weight : places.weight)
+        weight = weight > 0 ? std::sqrt(std::max(weight, kLeastWeight)) : 0;
+    return places;
 }
 
 /// A coordinate's cell and its nearness to the next.
@@ -56,11 +126,8 @@ struct Place {
     int cell;
     float next;
 
-    Place(float distance, float cell_size)
+    explicit Place(float coordinate) : cell(static_cast<int>(coordinate)), next(coordinate - static_cast<float>(cell))
     {
-        const float coordinate = std::clamp(distance / cell_size + kSide / 2, 0.0f, kLastCoordinate);
-        cell = static_cast<int>(coordinate);
-        next = coordinate - static_cast<float>(cell);
     }
 };
 
@@ -76,30 +143,22 @@ void add(float* cells, const Place& x, const Place& y, const Place& z, float wei
         }
 }
 
-/// Square roots of the cells' shares; x: brightness, y: ln(R / G), z: ln(B / G).
-std::vector<float> root_histogram(const ReducedImage& image)
+/// Square roots of the cells' shares.
+void root_histogram(const ReducedImage& image, std::size_t count, float* cells)
 {
-    const double dark = kDark * (mean(image[0]) + mean(image[1]) + mean(image[2])) / 3;
-    std::vector<float> cells(kCells);
+    const double dark = kDark * (mean(image[0], count) + mean(image[1], count) + mean(image[2], count)) / 3;
+    const Places places = places_of(image, static_cast<float>(dark));
+    std::fill_n(cells, kCells, 0.0f);
     double sum = 0;
-    for (std::size_t i = 0; i < image[0].size(); ++i) {
-        const float r = image[0][i], g = image[1][i], b = image[2][i];
-        const float brightness = (r + g + b) / 3;
-        if (std::max({ r, g, b }) >= kClipped || !(brightness > dark))
-            continue;
-        const float green = std::log(std::max(g, kDarkestColor));
-        const float weight = std::sqrt(std::max(brightness, kLeastWeight));
-        const Place x(std::log(std::max(brightness, kDarkestMean)) - kBrightnessCenter, kBrightnessCell);
-        const Place y(std::log(std::max(r, kDarkestColor)) - green, kColorCell);
-        const Place z(std::log(std::max(b, kDarkestColor)) - green, kColorCell);
-        add(cells.data(), x, y, z, weight);
-        sum += weight;
-    }
+    for (std::size_t i = 0; i < count; ++i)
+        if (const float weight = places.weight[i]; weight > 0) {
+            add(cells, Place(places.x[i]), Place(places.y[i]), Place(places.z[i]), weight);
+            sum += weight;
+        }
     const auto scale = static_cast<float>(1 / std::max<double>(sum, kLeastWeight));
-    for (float& cell : cells)
-        if (cell > 0) // few are
-            cell = std::sqrt(cell * scale);
-    return cells;
+    for (int i = 0; i < kCells; ++i)
+        if (cells[i] > 0) // few are
+            cells[i] = std::sqrt(cells[i] * scale);
 }
 
 /// What the spectrum is multiplied with along one axis, in its order: the Gaussians of kSmoothing, and a third of the
@@ -115,80 +174,99 @@ std::array<std::array<float, kSide>, 2> smoothing()
     return factors;
 }
 
-/// Where the negative of a frequency is that is at `place`.
-std::array<int, kSide> opposite_places()
-{
-    std::array<int, kSide> places;
-    for (int k = 0; k < kSide; ++k)
-        places[CubeFft::place(k)] = CubeFft::place((kSide - k) % kSide);
-    return places;
-}
-
-/// From two real cubes as real and imaginary part of one to their cross-correlation, smoothed by the first Gaussian (in
-/// the real part) and by the second (in the imaginary one). Spectra of real cubes have opposite frequencies conjugate,
-/// so two pass through each transform.
-void correlate(CubeFft& cube)
+/// From a real cube to its cross-correlation with the reference, smoothed by the first Gaussian (in the real part) and
+/// by the second (in the imaginary one).
+void correlate(CubeFft& cube, const MatchReference& reference)
 {
     static const auto smooth = smoothing();
-    static const auto opposite = opposite_places();
     cube.forward();
-    float *const re = cube.real(), *const im = cube.imaginary();
+    float *re = cube.real(), *im = cube.imaginary();
+    const float *other_re = reference.real().data(), *other_im = reference.imaginary().data();
     for (int x = 0; x < kSide; ++x)
-        for (int y = 0; y < kSide; ++y)
+        for (int y = 0; y < kSide; ++y, re += kSide, im += kSide, other_re += kSide, other_im += kSide) {
+            const float narrow_xy = smooth[0][x] * smooth[0][y], wide_xy = smooth[1][x] * smooth[1][y];
             for (int z = 0; z < kSide; ++z) {
-                const int i = (x * kSide + y) * kSide + z;
-                const int j = (opposite[x] * kSide + opposite[y]) * kSide + opposite[z];
-                if (j < i)
-                    continue; // was done with its opposite
-                // 2 Q = Z(k) + conj Z(−k), 2i R = Z(k) − conj Z(−k)
-                const float qr = re[i] + re[j], qi = im[i] - im[j], rr = im[i] + im[j], ri = re[j] - re[i];
-                const float product_re = 0.25f * (qr * rr + qi * ri), product_im = 0.25f * (qr * ri - qi * rr);
-                const float narrow = smooth[0][x] * smooth[0][y] * smooth[0][z];
-                const float wide = smooth[1][x] * smooth[1][y] * smooth[1][z];
-                re[i] = product_re * narrow - product_im * wide;
-                im[i] = product_im * narrow + product_re * wide;
-                re[j] = product_re * narrow + product_im * wide;
-                im[j] = product_re * wide - product_im * narrow;
+                const float product_re = re[z] * other_re[z] + im[z] * other_im[z];
+                const float product_im = re[z] * other_im[z] - im[z] * other_re[z];
+                const float narrow = narrow_xy * smooth[0][z], wide = wide_xy * smooth[1][z];
+                re[z] = product_re * narrow - product_im * wide;
+                im[z] = product_im * narrow + product_re * wide;
             }
+        }
     cube.inverse();
 }
 
-/// Of kCells values; in a way that compilers vectorise.
-float largest(const float* values)
+/// Of a row of values; of no less than 0.
+inline __attribute__((always_inline)) float largest(const float* values, int count)
 {
-    std::array<float, 16> columns{};
-    for (int i = 0; i < kCells; i += 16)
-        for (int k = 0; k < 16; ++k)
-            columns[k] = values[i + k] > columns[k] ? values[i + k] : columns[k];
-    return *std::max_element(columns.begin(), columns.end());
+    Lanes most = {};
+    for (int i = 0; i < count; i += kLanes) {
+        Lanes v;
+        load(values + i, v);
+        most = v > most ? v : most;
+    }
+    float result = 0;
+    for (int k = 0; k < kLanes; ++k)
+        result = std::max(result, most[k]);
+    return result;
+}
+
+/// Sums of p = exp((c − peak) · scale) along the axes, and of all.
+struct Shares {
+    double along[3][kSide] = {}, all = 0;
+};
+
+SRISP_WIDE_LANES Shares shares_of(const float* correlation, float peak, float scale)
+{
+    constexpr int kBlocks = kSide / kLanes;
+    Shares shares;
+    Lanes columns[kBlocks] = {};
+    for (int row = 0; row < kSide * kSide; ++row, correlation += kSide) {
+        if ((largest(correlation, kSide) - peak) * scale < kNegligible)
+            continue; // most rows are so
+        Lanes sum = {};
+        for (int block = 0; block < kBlocks; ++block) {
+            Lanes exponent;
+            load(correlation + block * kLanes, exponent);
+            exponent = (exponent - peak) * scale;
+            const IntLanes negligible = exponent < kNegligible;
+            take_exp(exponent);
+            exponent = negligible ? Lanes{} : exponent;
+            columns[block] += exponent;
+            sum += exponent;
+        }
+        double row_sum = 0;
+        for (int k = 0; k < kLanes; ++k)
+            row_sum += sum[k];
+        shares.along[0][row / kSide] += row_sum;
+        shares.along[1][row % kSide] += row_sum;
+        shares.all += row_sum;
+    }
+    for (int z = 0; z < kSide; ++z)
+        shares.along[2][z] = columns[z / kLanes][z % kLanes];
+    return shares;
+}
+
+SRISP_WIDE_LANES float peak_of(const float* correlation)
+{
+    return largest(correlation, kCells);
 }
 
 /// Which shifts fit: 7 numbers.
 float* describe_peak(float* correlation, float* features)
 {
-    float peak = largest(correlation);
+    float peak = peak_of(correlation);
     if (peak < kNoMatch) {
         std::fill_n(correlation, kCells, 0.0f);
         peak = 0;
     }
-    const float scale = kSharpness / std::max(peak, kNoMatch);
-    double sums[3][kSide] = {}, all = 0;
-    for (int i = 0; i < kCells; ++i) {
-        const float exponent = (correlation[i] - peak) * scale;
-        if (exponent < kNegligible)
-            continue;
-        const double p = std::exp(exponent);
-        sums[0][i / kSide / kSide] += p;
-        sums[1][i / kSide % kSide] += p;
-        sums[2][i % kSide] += p;
-        all += p;
-    }
+    const Shares shares = shares_of(correlation, peak, kSharpness / std::max(peak, kNoMatch));
     for (const int axis : kAxisOrder) {
         double first = 0, second = 0;
         for (int k = 0; k < kSide; ++k) {
             const int shift = k < kSide / 2 ? k : k - kSide;
-            first += sums[axis][k] / all * shift;
-            second += sums[axis][k] / all * shift * shift;
+            first += shares.along[axis][k] / shares.all * shift;
+            second += shares.along[axis][k] / shares.all * shift * shift;
         }
         *features++ = static_cast<float>(first * kAxes[axis]);
         *features++ = static_cast<float>(std::sqrt(std::max(second - first * first, 0.0)) * kAxes[axis]);
@@ -199,22 +277,31 @@ float* describe_peak(float* correlation, float* features)
 
 } // namespace
 
-std::array<float, kMatchFeatures> match_features(const ReducedImage& linear_source, const ReducedImage& reference)
+MatchReference::MatchReference(const ReducedImage& reference)
 {
-    const std::vector<float> reference_roots = root_histogram(reference);
+    CubeFft cube;
+    root_histogram(reference, reference[0].size(), cube.real());
+    cube.forward();
+    m_real.assign(cube.real(), cube.real() + kCells);
+    m_imaginary.assign(cube.imaginary(), cube.imaginary() + kCells);
+}
+
+std::array<float, kMatchFeatures> match_features(const ReducedImage& linear_source, const MatchReference& reference)
+{
+    const std::size_t count = linear_source[0].size();
+    const auto logs = logarithms(linear_source);
     std::array<float, kMatchFeatures> features;
     float* next = features.data();
     CubeFft cube;
     for (const double gamma : kGammas) {
-        const ReducedImage seen = seen_by_camera(linear_source, gamma);
-        const std::vector<float> roots = root_histogram(seen);
-        std::copy(roots.begin(), roots.end(), cube.real());
-        std::copy(reference_roots.begin(), reference_roots.end(), cube.imaginary());
-        correlate(cube);
+        const ReducedImage seen = seen_by_camera(logs, gamma);
+        root_histogram(seen, count, cube.real());
+        std::fill_n(cube.imaginary(), kCells, 0.0f);
+        correlate(cube, reference);
         next = describe_peak(cube.real(), next);
         next = describe_peak(cube.imaginary(), next);
         for (const std::vector<float>& channel : seen)
-            *next++ = static_cast<float>(std::log(std::max(mean(channel), 1e-4)));
+            *next++ = static_cast<float>(std::log(std::max(mean(channel, count), 1e-4)));
     }
     return features;
 }

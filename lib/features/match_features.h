@@ -2,12 +2,26 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "features/image_features.h"
 
 namespace srisp {
 
 constexpr int kMatchFeatures = 51;
+
+/// What match_features needs of a reference alone.
+class MatchReference {
+public:
+    MatchReference(const ReducedImage& reference);
+
+    /// The Fourier transform of its histogram's square roots, in CubeFft's order.
+    const std::vector<float>& real() const { return m_real; }
+    const std::vector<float>& imaginary() const { return m_imaginary; }
+
+private:
+    std::vector<float> m_real, m_imaginary;
+};
 
 /// How far a photo's colours must be moved to fall on a reference's: what the anchor's network sees of both images
 /// together (their quantiles say where the colours of each lie, not which of them are the same things in other light).
@@ -22,6 +36,6 @@ constexpr int kMatchFeatures = 51;
 /// Along each axis the mean of p and its standard deviation, in units of the logarithm, then max c: 7 numbers for each
 /// Gaussian. (Where one image has no pixels that weigh, all shifts are as likely and max c is 0.) Then ln of the means
 /// of q's three channels (≥ 1e-4).
-std::array<float, kMatchFeatures> match_features(const ReducedImage& linear_source, const ReducedImage& reference);
+std::array<float, kMatchFeatures> match_features(const ReducedImage& linear_source, const MatchReference& reference);
 
 } // namespace srisp

@@ -16,6 +16,17 @@ namespace {
 
 constexpr int kMaxDictionarySize = 64;
 
+/// From [outputs, in, 3, 3] to [outputs / kEncoderGroup, 3, 3, in, kEncoderGroup].
+std::vector<float> side_by_side(const std::vector<float>& weight, int in)
+{
+    std::vector<float> result(weight.size());
+    for (std::size_t i = 0; i < weight.size(); ++i) { // what could not be taken is empty
+        const std::size_t tap = i % 9, input = i / 9 % in, output = i / 9 / in;
+        result[((output / kEncoderGroup * 9 + tap) * in + input) * kEncoderGroup + output % kEncoderGroup] = weight[i];
+    }
+    return result;
+}
+
 /// Takes tensors out of a file by name and shape. The first error stays; what follows it does nothing.
 class TensorTaker {
 public:
@@ -53,8 +64,8 @@ public:
         for (std::size_t l = 0; l + 1 < channels.size(); ++l) {
             const std::string layer = name + "." + std::to_string(l);
             const int in = channels[l], out = channels[l + 1];
-            layers.push_back(
-                { in, out, 9, take(layer + ".weight", { out, in, 3, 3 }), take(layer + ".bias", { out }) });
+            layers.push_back({ in, out, side_by_side(take(layer + ".weight", { out, in, 3, 3 }), in),
+                               take(layer + ".bias", { out }) });
         }
         return layers;
     }
@@ -109,6 +120,15 @@ public:
             fail("metadata '" + key + "' is '" + shown_text(value) + "', must be " + list);
         }
         return value;
+    }
+
+    int whole_number_of(const std::string& key, const std::vector<int>& allowed)
+    {
+        std::vector<std::string> texts;
+        for (const int number : allowed)
+            texts.push_back(std::to_string(number));
+        const auto found = std::find(texts.begin(), texts.end(), one_of(key, texts));
+        return found == texts.end() ? 0 : allowed[found - texts.begin()];
     }
 
     int count(const std::string& key, int limit)
@@ -197,7 +217,8 @@ void take_scalar_dictionaries(TensorTaker& file, ModelData& model)
 
 /// Which of the parts that a model may lack it has.
 struct Parts {
-    bool statistics = false, anchor = false, anchor_network = false;
+    bool statistics = false, anchor = false;
+    bool anchor_network = false; ///< and its deviation
 };
 
 /// Metadata first: it says which tensors there must be, and of which shapes.
@@ -206,7 +227,8 @@ Status read_settings(ModelData& model, const std::string& where, Parts& parts)
     MetadataReader metadata(model.metadata, where);
     parts.anchor_network = model.white_stays_white = metadata.one_of("format", { "srisp-1", "srisp-7" }) == "srisp-7";
     if (parts.anchor_network)
-        model.selection_size = std::stoi(metadata.one_of("selection_size", { "64", "96", "128", "256" }));
+        model.selection_size =
+            metadata.whole_number_of("selection_size", { std::begin(kSelectionSizes), std::end(kSelectionSizes) });
     model.kernel_size = metadata.one_of("kernel_size", { "3", "1" }) == "1" ? 1 : 3;
     model.dictionary_size = metadata.count("dictionary_size", kMaxDictionarySize);
     model.perceptual_encoder_input = metadata.one_of("encoder_input", { "perceptual", "plain" }) == "perceptual";
@@ -219,7 +241,7 @@ Status read_settings(ModelData& model, const std::string& where, Parts& parts)
     if (parts.anchor && !parts.statistics)
         return Error{ where + ": metadata 'anchor' is 1 but 'statistics' is 0; the anchor needs the statistics" };
     if (parts.anchor_network && !parts.anchor)
-        return Error{ where + ": metadata 'format' is srisp-6 but 'anchor' is 0; its network needs the anchor" };
+        return Error{ where + ": metadata 'format' is srisp-7 but 'anchor' is 0; its network needs the anchor" };
     return {};
 }
 
@@ -246,15 +268,15 @@ Expected<std::unique_ptr<ModelData>> parse_model(const std::string& bytes, const
     }
     if (parts.anchor)
         model->anchor = tensors.take_dense("anchor", 3, 24);
-    if (parts.anchor_network)
+    if (parts.anchor_network) {
         model->anchor_network = {
             tensors.take_dense("anchor_network.0", 256, 24 + 2 * kQuantileFeatures + kMatchFeatures),
             tensors.take_dense("anchor_network.1", 256, 256), tensors.take_dense("anchor_network.2", 256, 256),
             tensors.take_dense("anchor_network.3", 3, 256)
         };
-    if (parts.anchor_network)
         model->anchor_deviation = { tensors.take_dense("anchor_deviation.0", 32, 256),
                                     tensors.take_dense("anchor_deviation.1", 1, 32) };
+    }
     model->fuse = tensors.take_dense("fuse", 128, 256);
     model->tone = take_selector(tensors, "tone", 3, atoms, kToneLayers);
     model->gamma = take_selector(tensors, "gamma", candidates, atoms, 1);

@@ -26,14 +26,24 @@ struct DenseLayer {
     std::vector<float> weight, bias;
 };
 
-/// A convolution layer: weight is [outputs, inputs, kernel, kernel], or [atoms, outputs, …] in a dictionary, and bias
-/// likewise.
+/// A convolution layer of a tone map: weight is [outputs, inputs, kernel, kernel], or [atoms, outputs, …] in a
+/// dictionary, and bias likewise.
 struct ConvolutionWeights {
     int inputs = 0, outputs = 0, taps = 0;
     std::vector<float> weight, bias;
 };
 
-using EncoderWeights = std::vector<ConvolutionWeights>;
+/// Outputs of an encoder's layer whose weights lie side by side; each layer has a multiple of them.
+constexpr int kEncoderGroup = 32;
+
+/// A 3×3 convolution with stride 2: weight is [outputs / kEncoderGroup, 3, 3, inputs, kEncoderGroup], in the order in
+/// which kernels read it.
+struct EncoderLayer {
+    int inputs = 0, outputs = 0;
+    std::vector<float> weight, bias;
+};
+
+using EncoderWeights = std::vector<EncoderLayer>;
 
 /// What chooses the parameters of one block: project and head once per dictionary (tone: one per layer).
 struct BlockSelector {

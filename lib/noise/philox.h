@@ -13,7 +13,7 @@ constexpr std::uint32_t kPhiloxW0 = 0x9e3779b9, kPhiloxW1 = 0xbb67ae85;
 constexpr int kPhiloxRounds = 10;
 
 /// What random bits are for: the third word of their counter.
-enum class NoiseStream : std::uint32_t { normal = 0, poisson = 1, model = 2 };
+enum class NoiseStream : std::uint32_t { normal = 0, poisson = 1, model = 2, brightness = 3 };
 
 /// Four random words that depend on the counter and the key alone.
 inline std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter, std::uint64_t key)

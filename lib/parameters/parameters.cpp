@@ -138,6 +138,12 @@ Status check_values(const Parameters& parameters, const std::string& what)
     for (const float value : parameters.white_balance)
         if (Status status = positive("white_balance", value); !status)
             return status;
+    const float sd = parameters.brightness_sd_ev.value_or(0.0f);
+    if (!(sd >= 0 && sd <= kLargestBrightnessEv))
+        return Error{ what + ": 'brightness_sd_ev' has " + number(sd) + ", must be 0 to " +
+                      number(kLargestBrightnessEv) };
+    if (!std::isfinite(parameters.brightness_ev))
+        return Error{ what + ": 'brightness_ev' has " + number(parameters.brightness_ev) + ", must be finite" };
     // Below this an inverse magnifies the last bit of a float to 1 % of full scale.
     if (!(std::abs(determinant(parameters.color)) > 1e-5))
         return Error{ what + ": 'color' is singular (determinant " + number(determinant(parameters.color)) + ")" };
@@ -148,10 +154,13 @@ Status check_values(const Parameters& parameters, const std::string& what)
 
 std::string to_json(const Parameters& parameters, int indent)
 {
-    return ObjectText(indent, 0)
-        .add("format", quoted(kFormat))
-        .add("gain", number(parameters.gain))
-        .add("white_balance", list(parameters.white_balance))
+    ObjectText text(indent, 0);
+    text.add("format", quoted(kFormat)).add("gain", number(parameters.gain));
+    if (parameters.brightness_ev != 0)
+        text.add("brightness_ev", number(parameters.brightness_ev));
+    if (parameters.brightness_sd_ev)
+        text.add("brightness_sd_ev", number(*parameters.brightness_sd_ev));
+    return text.add("white_balance", list(parameters.white_balance))
         .add("color", rows(parameters.color))
         .add("gamma", number(parameters.gamma))
         .add("weights", weights_text(parameters, indent))
@@ -175,6 +184,8 @@ Expected<Parameters> parameters_from_json(const std::string& text, const std::st
         if (const std::string format = reader.take_text("format"); format != kFormat)
             reader.fail("have format '" + shown_text(format) + "', must be '" + kFormat + "'");
         parameters.gain = reader.take_number("gain");
+        parameters.brightness_ev = reader.take_optional_number("brightness_ev").value_or(0.0f);
+        parameters.brightness_sd_ev = reader.take_optional_number("brightness_sd_ev");
         const std::vector<float> white_balance = reader.take_list("white_balance");
         if (white_balance.size() == 3)
             std::copy_n(white_balance.begin(), 3, parameters.white_balance.begin());

@@ -7,6 +7,7 @@
 
 #include "base/near_names.h"
 #include "base/shown_text.h"
+#include "recipe/brightness.h"
 
 namespace srisp {
 
@@ -32,10 +33,13 @@ const std::vector<Option>& option_table()
         { "precision", kProgram | kQuery | files | kUnprocess | kProcess, T::choice, &Recipe::precision,
           { "float32", "fast" }, "float32", "KIND",
           "fast is one and a half to nearly two times as fast, with an error well below one code value of 10 bits" },
+        { "brightness", kProgram | kQuery | files | kUnprocess | kParams, T::brightness, &Recipe::brightness, {}, "",
+          "EV", "make the result that much brighter, or darker below 0; sample draws from how unsure the brightness is, "
+          "by the seed and the photo's name" },
         { "hold", files | kUnprocess, T::flag, &Recipe::hold, {}, "0", "1",
           "keep the first frame's parameters over a sequence, so that nothing flickers" },
         { "seed", kProgram | kQuery | files | kUnprocess | kParams, T::number, &Recipe::seed, {}, "0", "N",
-          "for the choice among several references" },
+          "for the choice among several references, and of a sampled brightness" },
         { "mosaic", kProgram | kQuery | files, T::choice, &Recipe::mosaic,
           { "reference", "RGGB", "GRBG", "GBRG", "BGGR" }, "", "", "" },
         { "phase", kMosaic, T::choice, &Recipe::mosaic, { "reference", "RGGB", "GRBG", "GBRG", "BGGR" },
@@ -106,6 +110,9 @@ Expected<nlohmann::json> option_value(const Option& option, const std::string& t
             return Error{ what + " is not a whole number from 0 to " + std::to_string(UINT64_MAX) };
         return nlohmann::json(number);
     }
+    if (option.type == OptionType::brightness)
+        if (const auto brightness = parse_brightness(text); !brightness)
+            return brightness.error();
     if (option.type == OptionType::choice)
         if (const auto index = choice_index(option, text); !index)
             return index.error();

@@ -35,14 +35,15 @@ enum class OptionType {
     parameters, ///< the path of a JSON file, or an object in a recipe
     choice,     ///< one of the option's values
     flag,       ///< true or false; 0 or 1 in a text
-    number      ///< whole, of 64 bits
+    number,     ///< whole, of 64 bits
+    brightness  ///< a number of EV, or sample
 };
 
 using OptionTarget =
     std::variant<std::string Recipe::*, std::vector<std::string> Recipe::*, std::optional<Parameters> Recipe::*,
                  bool Recipe::*, std::uint64_t Recipe::*, Direction Recipe::*, InputEncoding Recipe::*,
                  GainMapUse Recipe::*, Precision Recipe::*, std::optional<Mosaic> Recipe::*, Levels Recipe::*,
-                 Recipe::Action Recipe::*>;
+                 Recipe::Action Recipe::*, std::optional<Brightness> Recipe::*>;
 
 /// One option: all that recipes, queries, hints, srisptool and its help know of it.
 struct Option {

@@ -11,6 +11,7 @@
 #include "base/near_names.h"
 #include "base/regular_file.h"
 #include "base/shown_text.h"
+#include "recipe/brightness.h"
 #include "recipe/option_table.h"
 #include "recipe/reference_pattern.h"
 
@@ -147,6 +148,17 @@ Status take(std::optional<Mosaic>& target, const Option& option, const json& val
     return taken;
 }
 
+Status take(std::optional<Brightness>& target, const Option&, const json& value, const Place&)
+{
+    if (!value.is_string() && !value.is_number())
+        return Error{ "must be a number of EV or \"sample\"" };
+    const auto brightness = parse_brightness(value.is_string() ? value.get<std::string>() : value.dump());
+    if (!brightness)
+        return brightness.error();
+    target = *brightness;
+    return {};
+}
+
 Status set_value(Recipe& recipe, const Option& option, const json& value, const Place& place)
 {
     return std::visit([&](auto member) { return take(recipe.*member, option, value, place); }, option.target);
@@ -233,6 +245,8 @@ Status check_complete(const Recipe& recipe, const std::string& where)
     const bool senses = recipe.mosaic || !recipe.noise.empty();
     if (recipe.direction == Direction::forward && senses)
         return Error{ where + ": mosaic and noise are for RAW-like images, not for processed ones" };
+    if (recipe.brightness && (recipe.direction == Direction::forward || !selects))
+        return Error{ where + ": brightness is for photos that become RAW-like images" };
     if (recipe.action == Recipe::Action::sensor && !senses)
         return Error{ where + ": names neither mosaic nor noise" };
     if (selects && recipe.direction == Direction::reverse && recipe.references.empty() && !recipe.parameters)

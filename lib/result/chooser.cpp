@@ -23,6 +23,7 @@ Expected<Chooser> Chooser::create(const Recipe& recipe, const std::string& photo
 {
     Chooser chooser(kept);
     chooser.m_recipe = recipe;
+    chooser.m_photo_name = photo_name;
     const std::optional<Parameters>& given = recipe.parameters;
     const bool reverse = recipe.direction == Direction::reverse;
     const bool named = given && !given->model_name.empty();
@@ -58,13 +59,36 @@ std::string Chooser::key(const PixelSource& source, int subimage) const
            reference_state(m_reference);
 }
 
+Choice Chooser::given() const
+{
+    Choice choice{ m_model, *m_recipe.parameters, nullptr, {} };
+    if (const std::string note = brightness_note(choice.parameters); !note.empty())
+        choice.notes.push_back(note);
+    return choice;
+}
+
+Expected<ChoicePtr> Chooser::finished(const PixelSource& source, int subimage, ChoicePtr choice) const
+{
+    if (m_recipe.brightness) {
+        Choice changed = *choice;
+        const Status chosen =
+            choose_brightness(changed.parameters, *m_recipe.brightness, m_recipe.seed, m_photo_name, &changed.notes);
+        if (!chosen)
+            return Error{ source.name() + ": " + chosen.error().message };
+        choice = std::make_shared<const Choice>(std::move(changed));
+    }
+    return m_recipe.hold ? m_kept->held_choices.keep(held_key(m_recipe, subimage), choice) : choice;
+}
+
 Expected<ChoicePtr> Chooser::known(const PixelSource& source, int subimage, const OIIO::ImageSpec& stored) const
 {
     if (m_recipe.direction == Direction::reverse) {
-        if (m_recipe.parameters && m_reference.empty())
-            return ChoicePtr(std::make_shared<Choice>(Choice{ m_model, *m_recipe.parameters, nullptr, {} }));
-        const ChoicePtr held = m_recipe.hold ? m_kept->held_choices.find(held_key(m_recipe, subimage)) : nullptr;
-        return held ? held : m_kept->choices.find(key(source, subimage));
+        if (const ChoicePtr held = m_recipe.hold ? m_kept->held_choices.find(held_key(m_recipe, subimage)) : nullptr)
+            return held;
+        const ChoicePtr choice = m_recipe.parameters && m_reference.empty()
+                                     ? std::make_shared<const Choice>(given())
+                                     : m_kept->choices.find(key(source, subimage));
+        return choice ? finished(source, subimage, choice) : choice;
     }
     if (!m_recipe.parameters && !is_unprocessed(stored))
         return Error{ source.name() +
@@ -90,10 +114,16 @@ Expected<ChoicePtr> Chooser::choose(PixelSource& source, int subimage, const OII
     auto choice = select_new(source, subimage, stored, converter, threads);
     if (!choice)
         return choice;
-    ChoicePtr kept = m_kept->choices.keep(key(source, subimage), *choice);
-    if (m_recipe.hold)
-        kept = m_kept->held_choices.keep(held_key(m_recipe, subimage), kept);
-    return kept;
+    return finished(source, subimage, m_kept->choices.keep(key(source, subimage), *choice));
+}
+
+Expected<std::shared_ptr<const PreparedReference>> Chooser::prepared(const Reference& reference) const
+{
+    using Prepared = std::shared_ptr<const PreparedReference>;
+    return m_kept->references.get(reference.hash + "\n" + m_model->hash(), [&]() -> Expected<Prepared> {
+        const auto made = prepare_reference(*m_model, reference.thumbnail);
+        return made ? Prepared(std::make_shared<const PreparedReference>(*made)) : Expected<Prepared>(made.error());
+    });
 }
 
 Expected<ChoicePtr> Chooser::select_new(PixelSource& source, int subimage, const OIIO::ImageSpec& stored,
@@ -102,16 +132,21 @@ Expected<ChoicePtr> Chooser::select_new(PixelSource& source, int subimage, const
     auto reference = load_reference_cached(m_reference, m_recipe.isolate);
     if (!reference)
         return reference.error();
-    auto choice = std::make_shared<Choice>(Choice{ m_model, {}, *reference, (*reference)->notes });
     if (m_recipe.parameters) {
-        choice->parameters = *m_recipe.parameters;
+        auto choice = std::make_shared<Choice>(given());
+        choice->reference = *reference;
+        choice->notes.insert(choice->notes.begin(), (*reference)->notes.begin(), (*reference)->notes.end());
         return ChoicePtr(choice);
     }
+    auto choice = std::make_shared<Choice>(Choice{ m_model, {}, *reference, (*reference)->notes });
+    const auto features = prepared(**reference);
+    if (!features)
+        return Error{ source.name() + ": " + features.error().message };
     PhotoReader photo(source, subimage, 0, stored, converter, threads);
     const auto thumbnail = photo.thumbnail();
     if (!thumbnail)
         return thumbnail.error();
-    auto parameters = select(*m_model, *thumbnail, (*reference)->thumbnail, &choice->notes);
+    auto parameters = select(*m_model, *thumbnail, **features, &choice->notes);
     if (!parameters)
         return Error{ source.name() + ": " + parameters.error().message };
     choice->parameters = *parameters;

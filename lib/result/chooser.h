@@ -43,12 +43,18 @@ public:
 
 private:
     explicit Chooser(KeptResults& kept) : m_kept(&kept) {}
+    /// The parameters of the recipe.
+    Choice given() const;
+    /// As bright as the recipe asks for; held from now on where it says so.
+    Expected<ChoicePtr> finished(const PixelSource& source, int subimage, ChoicePtr choice) const;
+    Expected<std::shared_ptr<const PreparedReference>> prepared(const Reference& reference) const;
     std::string key(const PixelSource& source, int subimage) const;
     Expected<ChoicePtr> select_new(PixelSource& source, int subimage, const OIIO::ImageSpec& stored,
                                    const PhotoConverter& converter, int threads) const;
 
     KeptResults* m_kept;
     Recipe m_recipe;
+    std::string m_photo_name;
     std::shared_ptr<const Model> m_model; ///< null: the image's record says which (forward)
     std::string m_reference;              ///< path of the chosen file; may be empty
 };

@@ -11,6 +11,7 @@
 #include <srisp/model.h>
 #include <srisp/noise.h>
 #include <srisp/parameters.h>
+#include <srisp/select.h>
 
 #include "base/recently_kept.h"
 
@@ -35,6 +36,8 @@ public:
 
     RecentlyKept<std::shared_ptr<const Choice>> choices{ 64 };
     RecentlyKept<std::shared_ptr<const NoiseModel>> noises{ 64 };
+    /// By the hashes of reference and model; 0.3 MB each.
+    RecentlyKept<std::shared_ptr<const PreparedReference>> references{ 64 };
     /// By recipe and subimage: the first choice of a recipe that says `hold`.
     RecentlyKept<std::shared_ptr<const Choice>> held_choices{ 1 << 20 };
 

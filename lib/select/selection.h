@@ -8,18 +8,11 @@
 #include <srisp/image.h>
 #include <srisp/parameters.h>
 
-#include "kernels/pointwise.h"
 #include "model/model_data.h"
+#include "select/planar_thumbnail.h"
+#include "select/reference_features.h"
 
 namespace srisp {
-
-/// A thumbnail as three planes, with the room that the kernels need.
-struct PlanarThumbnail {
-    static constexpr std::ptrdiff_t kCount = kThumbnailSize * kThumbnailSize;
-    std::vector<float> values = std::vector<float>(3 * (kCount + kRowSlack));
-
-    Planes planes() { return { values.data(), kCount + kRowSlack }; }
-};
 
 /// What happens inside `select`, step by step; tests compare it with the golden values.
 struct SelectionTrace {
@@ -30,7 +23,7 @@ struct SelectionTrace {
 };
 
 /// `select` without its checks. Fills `notes` and `trace` where they are given.
-Parameters select_parameters(const ModelData& model, const Thumbnail& source, const Thumbnail& reference,
+Parameters select_parameters(const ModelData& model, const Thumbnail& source, const ReferenceFeatures& reference,
                              std::vector<std::string>* notes, SelectionTrace* trace);
 
 } // namespace srisp

@@ -39,6 +39,7 @@ check "a model that looks at neighbours" refuses 1 \
 check "broken parameters" refuses 1 "broken.json" --params broken.json -o x
 check "no such parameters" refuses 1 "no.json" --params no.json -o x
 check "parameters of the other model" refuses 1 "--srisp-params:model=default REFERENCE prints such" --params spatial.json -o x
+check "a brightness that is none" refuses 2 "brightness 'dark' is neither a number of EV" --params look.json --brightness dark -o x
 check "no such folder" refuses 1 "nowhere/x.unprocess.clf" --reference "$reference" -o nowhere/x
 check "--help is on stdout" sh -c '"$1" --help | grep -q -- --lut-size' - "$bake"
 
@@ -84,6 +85,15 @@ replayed() {
     cmp a.txt b.txt
 }
 check "parameters that srisptool printed replay to the same table" replayed
+brighter() {
+    for seed in 1 2 3; do
+        "$bake" --params look.json --brightness sample --seed $((seed % 2)) -o "drawn$seed" --lut-size 5 >/dev/null 2>"notes$seed.txt" || return 1
+    done
+    "$bake" --params look.json --brightness +1 -o bright -q --lut-size 5 && grep -q "brightness_ev[^,]*: 1," bright.unprocess.clf &&
+        grep -q "parameters 'look.json': a brightness of [-+][0-9.]* EV was drawn" notes1.txt &&
+        cmp drawn1.unprocess.clf drawn3.unprocess.clf && ! cmp -s drawn1.unprocess.clf drawn2.unprocess.clf
+}
+check "a bake of another brightness, given or drawn by a seed" brighter
 one_file() {
     "$bake" --params look.json -o one.clf -q --lut-size 17 --direction process && [ ! -e one.unprocess.clf ] &&
         grep -q 'id="srisp-process"' one.clf && grep -q 'dim="17 17 17 3"' one.clf

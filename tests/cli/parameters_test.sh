@@ -53,5 +53,48 @@ check "precision=fast gives nearly the same" near raw.exr fast.exr $limit 0
 check "but not the same" sh -c '! cmp -s raw.exr fast.exr'
 check "another precision is refused" says 2 "unknown precision 'half'; known: float32, fast" \
     "$tool" "$photo" --srisp-unprocess:precision=half "$reference" -o no.tif
+
+# parameter FILE KEY: a number of it.
+parameter() { /usr/bin/python3 -c "import json; print(json.load(open('$1'))['$2'])"; }
+# ratio A B EV: the gain of A is that of B, divided by 2^EV.
+ratio() {
+    /usr/bin/python3 -c "import json; a, b = (json.load(open(f))['gain'] for f in ('$1', '$2')); assert abs(b / a / 2 ** $3 - 1) < 1e-5, (a, b)"
+}
+check "the parameters tell how unsure the brightness is" parameter saved.json brightness_sd_ev
+$tool "$photo" --srisp-unprocess:brightness=+0.5 "$reference" --srisp-save-params brighter.json -o brighter.exr
+check "brightness=+0.5 divides the gain" ratio brighter.json saved.json 0.5
+check "and is recorded" [ "$(parameter brighter.json brightness_ev)" = 0.5 ]
+check "brighter it is" sh -c '! cmp -s brighter.exr raw.exr'
+$tool brighter.exr --srisp-process -o:datatype=uint16 again.tif
+check "the way back gives the photo as before" near back.tif again.tif 0.02 2
+$tool "$photo" --srisp-params:brightness=-1 "$reference" >darker.json
+check "--srisp-params prints a darker one" ratio darker.json saved.json -1
+$tool "$photo" --srisp-unprocess:params=saved.json:brightness=0.5 - -o replayed.exr
+check "a brightness of given parameters" same brighter.exr replayed.exr
+for seed in 1 2 1; do
+    $tool "$photo" --srisp-unprocess:brightness=sample:seed=$seed "$reference" --srisp-save-params drawn$seed.json \
+        -o drawn$seed.exr 2>notes.txt
+    cmp -s drawn$seed.json before$seed.json || [ ! -e before$seed.json ] || echo "seed $seed drew another" >unequal.txt
+    cp drawn$seed.json before$seed.json
+done
+check "the same seed draws the same brightness" [ ! -e unequal.txt ]
+check "a note tells what was drawn" grep -q "srisp: note: .*photo.jpg.*: a brightness of [-+].* EV was drawn" notes.txt
+check "it is what the gain was changed by" ratio drawn1.json saved.json "$(parameter drawn1.json brightness_ev)"
+check "another seed draws another" sh -c '! cmp -s drawn1.json drawn2.json'
+/usr/bin/python3 - <<'P'
+import json
+p = json.load(open("saved.json"))
+p["brightness_sd_ev"] = 1.5
+json.dump(p, open("unsure.json", "w"))
+del p["brightness_sd_ev"]
+json.dump(p, open("unknown.json", "w"))
+P
+check "an unsure brightness is said" says 0 "the brightness is unsure, its standard deviation is 1.50 EV; brightness=EV" \
+    "$tool" "$photo" --srisp-unprocess:params=unsure.json - -o unsure.exr
+check "a sample needs a deviation" says 1 "brightness 'sample' has no standard deviation to draw from" \
+    "$tool" "$photo" --srisp-unprocess:params=unknown.json:brightness=sample - -o no.tif
+check "another brightness is refused" says 2 "brightness 'dark' is neither a number of EV from -20 to 20 nor 'sample'" \
+    "$tool" "$photo" --srisp-unprocess:brightness=dark "$reference" -o no.tif
+check "--srisp-process takes none" says 2 "brightness" "$tool" raw.exr --srisp-process:brightness=1 -o no.tif
 check "nothing is left" nothing_left
 finish

@@ -26,6 +26,10 @@ for frame in 1 2 3; do
     $tool "s.000$frame.tif" --srisp-unprocess:params=single.0001.json "$reference" -o "replayed.exr"
     check "and they are applied to frame $frame" same "h.000$frame.exr" replayed.exr
 done
+$tool --frames 1-3 "s.#.tif" --srisp-unprocess:hold=1:brightness=sample "$reference" --srisp-save-params "d.#.json" -o "d.#.exr" 2>/dev/null
+check "one brightness is drawn for a held sequence" sh -c 'cmp d.0001.json d.0002.json && cmp d.0001.json d.0003.json && grep -q brightness_ev d.0001.json'
+$tool --frames 1-3 "s.#.tif" --srisp-unprocess:brightness=sample "$reference" --srisp-save-params "e.#.json" -o "e.#.exr" 2>/dev/null
+check "and one for each frame of another" sh -c '! grep brightness_ev e.0001.json | grep -qf - e.0002.json'
 $tool --frames 2-3 "s.#.tif" --srisp-params "$reference" >lines.txt
 check "--srisp-params prints one object per frame, with its name" \
     /usr/bin/python3 -c "import json; l = [json.loads(x) for x in open('lines.txt')]; assert len(l) == 2 and l[0]['image'] != l[1]['image'], l"

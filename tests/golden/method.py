@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An independent implementation of the method in NumPy, in double precision: model formats srisp-1 and srisp-6.
+"""An independent implementation of the method in NumPy, in double precision: model formats srisp-1 and srisp-7.
 Images are [height, width, channel]."""
 import json
 import struct
@@ -20,6 +20,16 @@ def load(path):
         for name, entry in header.items()
     }
     return tensors, metadata
+
+
+def area_means(image, size):
+    """Means over size x size equal areas, parts of pixels counted, of a square image [side, side, 3]."""
+    side = image.shape[0]
+    edges = np.arange(size + 1) * side / size
+    pixels = np.arange(side)
+    shares = np.clip(np.minimum(edges[1:, None], pixels + 1) - np.maximum(edges[:-1, None], pixels), 0, 1)
+    shares /= side / size
+    return np.einsum("yi,xj,ijc->yxc", shares, shares, image.astype(np.float64))
 
 
 def reduced(image):
@@ -121,7 +131,7 @@ def inverse_gain(image, gains):
 
 
 def rebuilt_highlights(raw, balance, gain):
-    """White balance and a gain below 1 of the forward pass of srisp-6; raw: [..., 3]."""
+    """White balance and a gain below 1 of the forward pass of srisp-7; raw: [..., 3]."""
     balanced = np.minimum(raw * balance, 1 / gain)
     brightest = np.maximum(balanced.max(-1, keepdims=True), 1)
     near_white = np.clip((np.minimum(balanced, 1).sum(-1, keepdims=True) - 2.9) / 0.1, 0, 1)
@@ -138,8 +148,9 @@ class Selection:
         self.perceptual = metadata["encoder_input"] == "perceptual"
         self.has_statistics = metadata["statistics"] == "12"
         self.has_anchor = metadata["anchor"] == "1"
-        self.white_stays_white = metadata["format"] == "srisp-6"
-        self.photo, self.reference = photo.astype(np.float64), reference.astype(np.float64)
+        self.white_stays_white = metadata["format"] == "srisp-7"
+        size = int(metadata["selection_size"]) if self.white_stays_white else 256
+        self.photo, self.reference = area_means(photo, size), area_means(reference, size)
         self.image = self.photo
         self.values, self.running = {}, {}
         self.encode_images()
@@ -222,9 +233,11 @@ class Selection:
                 images = self.linear_photo, self.reference
                 quantiles = [quantile_features(image) for image in images]
                 numbers = np.concatenate([numbers, *quantiles, match_features(*images)])
-                for layer in range(4):
-                    numbers = self.affine(f"anchor_network.{layer}", np.maximum(numbers, 0) if layer else numbers)
-                expected = expected + numbers
+                for layer in range(3):
+                    numbers = np.maximum(self.affine(f"anchor_network.{layer}", numbers), 0)
+                expected = expected + self.affine("anchor_network.3", numbers)
+                hidden = np.maximum(self.affine("anchor_deviation.0", numbers), 0)
+                self.values["brightness_sd_ev"] = np.exp(self.affine("anchor_deviation.1", hidden)) / np.log(2)
             base = np.maximum(self.image.mean((0, 1)), 1e-3) / np.exp(expected)
         self.values["base_gain"] = base
         return base

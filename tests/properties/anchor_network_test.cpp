@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What model format srisp-6 adds, against an independent implementation: tests/golden/anchor_network.py.
+// What model format srisp-7 adds, against an independent implementation: tests/golden/anchor_network.py.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 #include <srisp/model.h>
+#include <srisp/select.h>
 
 #include "base/input_file.h"
 #include "features/image_features.h"
@@ -26,14 +27,14 @@ namespace {
 
 constexpr double kTolerance = 1e-4; // of max(1, |value|) [method 3]
 
-std::vector<float> expected(const char* name)
+std::vector<float> expected(const std::string& name)
 {
     std::ifstream file(SRISP_SOURCE_DIR "/tests/golden/anchor_network.json");
     REQUIRE(file);
     return nlohmann::json::parse(file).at(name).get<std::vector<float>>();
 }
 
-template<class Values> void check_near(const Values& actual, const char* name)
+template<class Values> void check_near(const Values& actual, const std::string& name)
 {
     const Difference difference = compare(actual, expected(name));
     INFO(name, ": ", difference.text);
@@ -52,15 +53,37 @@ std::vector<float> made_up_image(int height, int width, double phase = 0, double
     return planes;
 }
 
-Tensor made_up(std::vector<std::int64_t> shape, double scale, double (*wave)(double), double step, int layer)
+Tensor made_up(std::vector<std::int64_t> shape, double (*wave)(double), double step, int layer)
 {
     Tensor tensor{ std::move(shape), {} };
     std::int64_t count = 1;
     for (const std::int64_t size : tensor.shape)
         count *= size;
     for (std::int64_t i = 0; i < count; ++i)
-        tensor.values.push_back(static_cast<float>(scale * wave(step * static_cast<double>(i) + layer)));
+        tensor.values.push_back(static_cast<float>(0.05 * wave(step * static_cast<double>(i) + layer)));
     return tensor;
+}
+
+/// Affine layers of so many inputs, then outputs.
+void add_made_up_layers(ModelFile& file, const std::string& name, const std::vector<std::int64_t>& widths)
+{
+    for (std::size_t l = 0; l + 1 < widths.size(); ++l) {
+        const std::string layer = name + "." + std::to_string(l);
+        file.tensors[layer + ".weight"] = made_up(
+            { widths[l + 1], widths[l] }, [](double v) { return std::sin(v); }, 0.7, int(l));
+        file.tensors[layer + ".bias"] = made_up(
+            { widths[l + 1] }, [](double v) { return std::cos(v); }, 1, int(l));
+    }
+}
+
+SafeTensors shared_tensors(const std::string& name)
+{
+    const std::string path = shared_file(name);
+    Expected<std::string> bytes = read_file(path, 1 << 26, path);
+    REQUIRE(bytes);
+    Expected<SafeTensors> file = parse_safetensors(*bytes, path);
+    REQUIRE(file);
+    return std::move(*file);
 }
 
 } // namespace
@@ -166,52 +189,121 @@ TEST_CASE("a gain below 1 rebuilds clipped highlights")
     check_near(result, "process_gains");
 }
 
-TEST_CASE("the anchor's network corrects the golden model's gains, and no white-balance gain is below 1")
+TEST_CASE("the anchor's network corrects the golden model's gains and tells their deviation, at each size")
 {
     SKIP_WITHOUT_SHARED("golden/model_spatial.safetensors");
-    const std::string path = shared_file("golden/model_spatial.safetensors");
-    Expected<std::string> bytes = read_file(path, 1 << 26, path);
-    REQUIRE(bytes);
-    Expected<SafeTensors> golden = parse_safetensors(*bytes, path);
-    REQUIRE(golden);
-    ModelFile file{ golden->metadata, golden->tensors };
-    file.metadata["format"] = "srisp-6";
-    const std::int64_t sizes[] = { 24 + 2 * kQuantileFeatures + kMatchFeatures, 256, 256, 256, 3 };
-    for (int l = 0; l < 4; ++l) {
-        const std::string layer = "anchor_network." + std::to_string(l);
-        file.tensors[layer + ".weight"] = made_up(
-            { sizes[l + 1], sizes[l] }, 0.05, [](double v) { return std::sin(v); }, 0.7, l);
-        file.tensors[layer + ".bias"] = made_up(
-            { sizes[l + 1] }, 0.05, [](double v) { return std::cos(v); }, 1, l);
-    }
-    Expected<std::unique_ptr<ModelData>> model = parse_model(file.bytes(), path);
-    REQUIRE_MESSAGE(model, (model ? "" : model.error().message));
-
-    const std::string values_path = shared_file("golden/values_spatial.safetensors");
-    Expected<std::string> values_bytes = read_file(values_path, 1 << 26, values_path);
-    REQUIRE(values_bytes);
-    Expected<SafeTensors> values = parse_safetensors(*values_bytes, values_path);
-    REQUIRE(values);
+    const SafeTensors golden = shared_tensors("golden/model_spatial.safetensors");
+    const SafeTensors values = shared_tensors("golden/values_spatial.safetensors");
     Thumbnail source, reference;
-    source.rgb = values->tensors.at("thumb.source").values;
-    reference.rgb = values->tensors.at("thumb.reference").values;
-    SelectionTrace trace;
-    const Parameters parameters = select_parameters(**model, source, reference, nullptr, &trace);
-    check_near(trace.base_gain, "base_gain");
-    check_near(parameters.white_balance, "white_balance");
-    check_near(std::array<float, 1>{ parameters.gain }, "gain");
-    CHECK(*std::min_element(parameters.white_balance.begin(), parameters.white_balance.end()) == 1);
+    source.rgb = values.tensors.at("thumb.source").values;
+    reference.rgb = values.tensors.at("thumb.reference").values;
+    for (const std::string size : { "256", "96" }) {
+        INFO(size, " pixels");
+        ModelFile file{ golden.metadata, golden.tensors };
+        file.metadata["format"] = "srisp-7";
+        file.metadata["selection_size"] = size;
+        add_made_up_layers(file, "anchor_network", { 24 + 2 * kQuantileFeatures + kMatchFeatures, 256, 256, 256, 3 });
+        add_made_up_layers(file, "anchor_deviation", { 256, 32, 1 });
+        Expected<std::unique_ptr<ModelData>> model = parse_model(file.bytes(), "m");
+        REQUIRE_MESSAGE(model, (model ? "" : model.error().message));
+        SelectionTrace trace;
+        const Parameters parameters =
+            select_parameters(**model, source, reference_features(**model, reference), nullptr, &trace);
+        check_near(trace.base_gain, "base_gain_" + size);
+        check_near(parameters.white_balance, "white_balance_" + size);
+        check_near(std::array<float, 1>{ parameters.gain }, "gain_" + size);
+        check_near(std::array<float, 1>{ parameters.gamma }, "gamma_" + size);
+        check_near(std::array<float, 1>{ parameters.brightness_sd_ev.value() }, "brightness_sd_ev_" + size);
+        CHECK(*std::min_element(parameters.white_balance.begin(), parameters.white_balance.end()) == 1);
+    }
 }
 
-TEST_CASE("a network without an anchor, or of another shape, is refused")
+TEST_CASE("a thumbnail is reduced by exact area means, parts of pixels counted")
 {
-    ModelFile file = random_model(3, 1);
-    file.metadata["format"] = "srisp-6";
-    Expected<std::unique_ptr<ModelData>> model = parse_model(file.bytes(), "m");
-    REQUIRE(!model);
-    CHECK(model.error().message == "m: has no tensor 'anchor_network.0.weight'");
-    file.metadata["anchor"] = "0";
-    model = parse_model(file.bytes(), "m");
-    REQUIRE(!model);
-    CHECK(model.error().message == "m: metadata 'format' is srisp-6 but 'anchor' is 0; its network needs the anchor");
+    const std::vector<float> planes = made_up_image(256, 256);
+    Thumbnail thumbnail;
+    for (std::size_t i = 0; i < thumbnail.rgb.size(); ++i)
+        thumbnail.rgb[i] = planes[i % 3 * 256 * 256 + i / 3];
+    const PlanarThumbnail smaller(thumbnail, 96);
+    std::vector<float> some;
+    for (int y = 5; y < 96; y += 17)
+        for (int x = 3; x < 96; x += 23)
+            for (int c = 0; c < 3; ++c)
+                some.push_back(smaller.planes().plane(c)[y * 96 + x]);
+    check_near(some, "area_means_96");
+}
+
+TEST_CASE("a reference that is prepared once serves all photos and gives the same bits")
+{
+    Thumbnail photo, other, reference;
+    Random random(3);
+    for (Thumbnail* thumbnail : { &photo, &other, &reference })
+        for (float& value : thumbnail->rgb)
+            value = random.uniform(0, thumbnail == &reference ? 0.5f : 1.0f);
+    const ScratchFolder folder;
+    const auto model = Model::load(random_srisp_7_model(1, 5).write(folder.path("m.safetensors")));
+    REQUIRE_MESSAGE(model, (model ? "" : model.error().message));
+    const auto prepared = prepare_reference(**model, reference);
+    REQUIRE(prepared);
+    const PreparedReference copy = *prepared;
+    for (const Thumbnail* each : { &photo, &other, &photo }) {
+        const auto kept = srisp::select(**model, *each, copy), fresh = srisp::select(**model, *each, reference);
+        REQUIRE(kept);
+        REQUIRE(fresh);
+        CHECK(to_json(*kept) == to_json(*fresh));
+    }
+    const auto another = Model::load(random_srisp_7_model(1, 6).write(folder.path("n.safetensors")));
+    REQUIRE(another);
+    const auto refused = srisp::select(**another, photo, copy);
+    REQUIRE(!refused);
+    CHECK(refused.error().message == "the reference was prepared for the model " + (*model)->hash() + ", but '" +
+                                         (*another)->path() + "' is " + (*another)->hash());
+    reference.rgb[3] = NAN;
+    CHECK(!prepare_reference(**model, reference));
+}
+
+TEST_CASE("an unsure brightness is noted by select, above 0.7 EV")
+{
+    const ScratchFolder folder;
+    Thumbnail flat;
+    std::fill(flat.rgb.begin(), flat.rgb.end(), 0.25f);
+    for (const double deviation : { 0.5, 0.92 }) {
+        const auto model = Model::load(random_srisp_7_model(1, 5, 64, deviation).write(folder.path("m.safetensors")));
+        REQUIRE_MESSAGE(model, (model ? "" : model.error().message));
+        std::vector<std::string> notes;
+        const auto parameters = srisp::select(**model, flat, flat, &notes);
+        REQUIRE(parameters);
+        CHECK(parameters->brightness_sd_ev.value() == doctest::Approx(deviation));
+        const std::string all = notes.empty() ? "" : notes.back();
+        CHECK((all.find("the brightness is unsure, its standard deviation is 0.92 EV; brightness=EV") == 0) ==
+              (deviation > 0.7));
+    }
+}
+
+TEST_CASE("a model of srisp-7 without anchor, size or deviation is refused, and so is one of an older format")
+{
+    const auto message_after = [](auto change) {
+        ModelFile file = random_srisp_7_model(3, 1);
+        change(file);
+        const auto model = parse_model(file.bytes(), "m");
+        return model ? std::string() : model.error().message;
+    };
+    CHECK(message_after([](ModelFile&) {}).empty());
+    CHECK(message_after([](ModelFile& file) { file.tensors.erase("anchor_network.0.weight"); }) ==
+          "m: has no tensor 'anchor_network.0.weight'");
+    CHECK(message_after([](ModelFile& file) { file.metadata["anchor"] = "0"; }) ==
+          "m: metadata 'format' is srisp-7 but 'anchor' is 0; its network needs the anchor");
+    CHECK(message_after([](ModelFile& file) { file.metadata.erase("selection_size"); }) ==
+          "m: metadata 'selection_size' is missing");
+    CHECK(message_after([](ModelFile& file) { file.metadata["selection_size"] = "100"; }) ==
+          "m: metadata 'selection_size' is '100', must be '64' or '96' or '128' or '256'");
+    CHECK(message_after([](ModelFile& file) { file.tensors.erase("anchor_deviation.1.bias"); }) ==
+          "m: has no tensor 'anchor_deviation.1.bias'");
+    CHECK(message_after([](ModelFile& file) {
+              file.tensors["anchor_deviation.0.weight"].shape = { 256, 32 };
+          }) == "m: tensor 'anchor_deviation.0.weight' has shape [256, 32], needs [32, 256]");
+    CHECK(message_after([](ModelFile& file) { file.metadata["format"] = "srisp-6"; }) ==
+          "m: metadata 'format' is 'srisp-6', must be 'srisp-1' or 'srisp-7'");
+    CHECK(message_after([](ModelFile& file) { file.metadata["format"] = "srisp-1"; }).find("unknown tensor") !=
+          std::string::npos);
 }

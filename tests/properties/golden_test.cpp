@@ -46,13 +46,13 @@ template<class Values> void check_near(const Values& actual, const Golden& golde
 }
 
 /// Every `step`th row and column of a running thumbnail, interleaved as in the golden file.
-std::vector<float> some_of(PlanarThumbnail& thumbnail, int step)
+std::vector<float> some_of(const PlanarThumbnail& thumbnail, int step)
 {
     std::vector<float> values;
-    for (int y = 0; y < kThumbnailSize; y += step)
-        for (int x = 0; x < kThumbnailSize; x += step)
+    for (int y = 0; y < thumbnail.size(); y += step)
+        for (int x = 0; x < thumbnail.size(); x += step)
             for (int c = 0; c < 3; ++c)
-                values.push_back(thumbnail.planes().plane(c)[y * kThumbnailSize + x]);
+                values.push_back(thumbnail.planes().plane(c)[y * thumbnail.size() + x]);
     return values;
 }
 
@@ -73,8 +73,9 @@ void check_mixed_kernels(const Golden& golden, const Parameters& parameters)
 void check_selection(const Golden& golden)
 {
     SelectionTrace trace;
-    const Parameters p = select_parameters(model_data(*golden.model), golden.thumbnail("source"),
-                                           golden.thumbnail("reference"), nullptr, &trace);
+    const ModelData& model = model_data(*golden.model);
+    const Parameters p = select_parameters(model, golden.thumbnail("source"),
+                                           reference_features(model, golden.thumbnail("reference")), nullptr, &trace);
     if (golden.file.values.count("source_statistics")) {
         check_near(trace.source_statistics, golden, "source_statistics");
         check_near(trace.reference_statistics, golden, "reference_statistics");
@@ -95,8 +96,12 @@ void check_selection(const Golden& golden)
     check_near(std::vector<float>{ p.gamma }, golden, "parameters.gamma");
     check_near(p.color, golden, "parameters.color");
     check_near(p.white_balance, golden, "parameters.white_balance");
+    if (golden.file.values.count("brightness_sd_ev"))
+        check_near(std::vector<float>{ p.brightness_sd_ev.value() }, golden, "brightness_sd_ev");
+    else
+        CHECK(!p.brightness_sd_ev);
     check_mixed_kernels(golden, p);
-    const int step = golden.file.thumbnail_step();
+    const int step = golden.file.thumbnail_step(model.selection_size);
     check_near(some_of(trace.after_tone, step), golden, "thumb.after_tone");
     check_near(some_of(trace.after_gamma, step), golden, "thumb.after_gamma");
     check_near(some_of(trace.after_color, step), golden, "thumb.after_color");

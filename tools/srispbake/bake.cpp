@@ -189,7 +189,9 @@ std::vector<std::string> notes_of(const BakeChoice& choice, const BakeOptions& o
         for (const std::string& note : choice.photo->notes)
             notes.push_back("photo '" + options.source + "': " + note);
     for (const std::string& note : choice.notes)
-        notes.push_back("reference '" + options.reference + "': " + note);
+        notes.push_back(
+            (options.reference.empty() ? "parameters '" + options.parameters : "reference '" + options.reference) +
+            "': " + note);
     return notes;
 }
 

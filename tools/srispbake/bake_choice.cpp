@@ -2,6 +2,7 @@
 #include "bake_choice.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <future>
 
 #include <srisp/neutral_rendition.h>
@@ -105,12 +106,27 @@ Parameters given_parameters(const std::string& path, const Model& model, const s
 }
 
 Parameters chosen_parameters(const Model& model, const Thumbnail& photo, const Reference& reference,
-                             std::vector<std::string>& notes)
+                             std::vector<std::string>* notes)
 {
-    Parameters parameters = require(select(model, photo, reference.thumbnail, &notes));
+    Parameters parameters = require(select(model, photo, reference.thumbnail, notes));
     parameters.reference_name = reference.name;
     parameters.reference_hash = reference.hash;
     return parameters;
+}
+
+void make_brighter(BakeChoice& choice, const BakeOptions& options)
+{
+    Parameters& parameters = choice.parameters;
+    if (!options.parameters.empty())
+        if (const std::string note = brightness_note(parameters); !note.empty())
+            choice.notes.push_back(note);
+    if (options.brightness.empty())
+        return;
+    Options parsed;
+    require(set_option(parsed, "brightness", options.brightness));
+    const std::string photo = options.source.empty() ? options.reference : options.source;
+    require(choose_brightness(parameters, *parsed.brightness, options.seed,
+                              std::filesystem::path(photo).filename().string(), &choice.notes));
 }
 
 } // namespace
@@ -129,13 +145,16 @@ BakeChoice make_choice(const BakeOptions& options)
         choice.photo = read_photo_sample(options.source, options.allow_partial);
     choice.reference = require(reference.get());
     check_interrupt();
-    if (!choice.reference)
+    if (!choice.reference) {
+        make_brighter(choice, options);
         return choice;
+    }
     choice.notes = choice.reference->notes;
     if (!choice.photo)
         choice.photo = sample_of_thumbnail(neutral_rendition(*choice.reference), "the reference's neutral rendition");
     if (options.parameters.empty())
-        choice.parameters = chosen_parameters(*choice.model, choice.photo->thumbnail, *choice.reference, choice.notes);
+        choice.parameters = chosen_parameters(*choice.model, choice.photo->thumbnail, *choice.reference, &choice.notes);
+    make_brighter(choice, options);
     return choice;
 }
 

@@ -21,6 +21,8 @@ void describe_options(CLI::App& app, BakeOptions& options)
     app.add_option("--source", options.source);
     app.add_option("--params", options.parameters);
     app.add_option("--model", options.model);
+    app.add_option("--brightness", options.brightness);
+    app.add_option("--seed", options.seed);
     app.add_option("-o,--output", options.output);
     app.add_option("--direction", options.direction)->check(CLI::IsMember({ "unprocess", "process" }));
     app.add_option("--lut-size", options.lut_size)->check(CLI::Range(kSmallestLut, kLargestLut));
@@ -34,12 +36,16 @@ void describe_options(CLI::App& app, BakeOptions& options)
 void check_options(const BakeOptions& options)
 {
     if (!options.fragment.empty()) {
-        if (!options.reference.empty() || !options.parameters.empty() || options.watch)
-            fail_usage("--fragment extends a config; --reference, --params and --watch belong to bakes");
+        if (!options.reference.empty() || !options.parameters.empty() || !options.brightness.empty() || options.watch)
+            fail_usage("--fragment extends a config; --reference, --params, --brightness and --watch belong to bakes");
         return;
     }
     if (!options.linear_srgb.empty())
         fail_usage("--linear-srgb belongs to --fragment");
+    Options parsed;
+    if (!options.brightness.empty())
+        if (const Status set = set_option(parsed, "brightness", options.brightness); !set)
+            fail_usage(set.error().message);
     if (options.reference.empty() && options.parameters.empty())
         fail_usage("no reference is given (srispbake --help shows how)");
     if (options.reference.empty() && options.output.empty())
@@ -76,6 +82,10 @@ Options:
                       edited or not, instead of choosing
   --model NAME        Name or path of a model that sees single pixels (kernel
                       size 1), as colour transforms do; default
+  --brightness EV     Make the RAW-like result that much brighter, or darker
+                      below 0; sample draws from how unsure the brightness is,
+                      by the seed and the photo's name
+  --seed N            Of the sampled brightness; 0
   -o, --output NAME   NAME.unprocess.clf and NAME.process.clf instead; or one
                       file, NAME.clf or NAME.cube; or a device or pipe
   --direction WHICH   Of one file: unprocess (without this) or process

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct BakeOptions : CommonOptions {
     int lut_size = kDefaultLut;
     std::string fragment;    ///< a config to be extended
     std::string linear_srgb; ///< the name of that colour space in it; empty: found by itself
+    std::string brightness;  ///< EV, or "sample"; empty: as it was chosen
+    std::uint64_t seed = 0;  ///< of a sampled brightness
     bool cube = false, watch = false, allow_partial = false;
 };
 

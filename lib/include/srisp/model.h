@@ -13,7 +13,7 @@ namespace srisp {
 
 struct ModelData;
 
-/// A trained model (`srisp-1` or `srisp-6` safetensors: float32, float16 or bfloat16 on disk, float32 here), checked in
+/// A trained model (`srisp-1` or `srisp-7` safetensors: float32, float16 or bfloat16 on disk, float32 here), checked in
 /// full when it is loaded. Immutable, so it may be used by any number of threads.
 class SRISP_API Model {
 public:

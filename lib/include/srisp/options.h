@@ -47,6 +47,13 @@ enum class Levels {
            ///< survives
 };
 
+/// By how much a RAW-like image is to be brighter than it was chosen, in EV: its gain is divided by 2^EV.
+struct Brightness {
+    double ev = 0;       ///< below 0: darker; −kLargestBrightnessEv … kLargestBrightnessEv
+    bool sample = false; ///< instead drawn from a normal distribution whose standard deviation is the parameters'
+                         ///< brightness_sd_ev; the seed and the photo's name say which draw
+};
+
 /// What may be asked for beside a photo and a reference.
 struct Options {
     std::string model;                    ///< name, or path of a .safetensors file; empty: the known one that
@@ -57,7 +64,9 @@ struct Options {
     GainMapUse gain_map = GainMapUse::ignore;
     bool allow_partial = false; ///< a photo that breaks off is taken as far as it goes, with a note
     bool isolate = true;        ///< RAW files are decoded by a program of their own (load_reference)
-    std::uint64_t seed = 0;     ///< with the photo's name it says which of several references is taken
+    std::uint64_t seed = 0;     ///< with the photo's name it says which of several references is taken, and which
+                                ///< brightness
+    std::optional<Brightness> brightness; ///< of reverse results only
 
     std::optional<Mosaic> mosaic; ///< `reference`: its phase; where that is not known RGGB, with a note
     Levels levels = Levels::unit; ///< of a mosaic
@@ -69,9 +78,9 @@ struct Options {
 };
 
 /// Sets one option by its name, as a query, a recipe and srisptool do: model, params (the path of a JSON file), input
-/// (auto, srgb, linear), precision (float32, fast), seed, gainmap (ignore, apply), allow_partial (0, 1), isolate (0,
-/// 1), mosaic (reference, RGGB, …), levels (unit, camera), noise, profile, noise_seed. Errors: unknown keys and
-/// values (the near ones listed), a file that cannot be read.
+/// (auto, srgb, linear), precision (float32, fast), brightness (EV, sample), seed, gainmap (ignore, apply),
+/// allow_partial (0, 1), isolate (0, 1), mosaic (reference, RGGB, …), levels (unit, camera), noise, profile,
+/// noise_seed. Errors: unknown keys and values (the near ones listed), a file that cannot be read.
 SRISP_API Status set_option(Options& options, const std::string& key, const std::string& value);
 
 } // namespace srisp

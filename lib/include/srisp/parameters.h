@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@
 namespace srisp {
 
 class Model;
+
+/// The most by which a brightness is changed or is unsure, in EV.
+constexpr float kLargestBrightnessEv = 20;
 
 /// What `select` chooses for one photo and one reference: a few hundred bytes that can be printed, edited, replayed and
 /// held over a sequence. `gain`, `white_balance`, `color` and `gamma` are final values and win as written; the weights
@@ -22,7 +26,11 @@ struct Parameters {
     std::array<float, 9> color{ 1, 0, 0, 0, 1, 0, 0, 0, 1 }; ///< C, row-major, camera RGB → linear sRGB
     std::array<float, 3> white_balance{ 1, 1, 1 };           ///< forward multipliers of R, G, B, > 0
     float gain = 1;                                          ///< forward multiplier g, > 0
-    std::string model_name, model_hash;                      ///< Model::name and Model::hash
+    /// How unsure the brightness of the result is: the standard deviation of its error, 0 to kLargestBrightnessEv. None
+    /// for models that do not tell it.
+    std::optional<float> brightness_sd_ev;
+    float brightness_ev = 0; ///< by how much `gain` makes the result brighter than `select` chose it; a record only
+    std::string model_name, model_hash;         ///< Model::name and Model::hash
     std::string reference_name, reference_hash; ///< base name of the file and hash of its bytes; may be empty
 };
 

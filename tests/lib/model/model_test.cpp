@@ -106,7 +106,7 @@ TEST_CASE("wrong metadata is refused with the value and what is allowed")
     const auto with = [](const std::string& key, const std::string& value) {
         return message_after([&](ModelFile& file) { file.metadata[key] = value; });
     };
-    CHECK(with("format", "srisp-9") == "metadata 'format' is 'srisp-9', must be 'srisp-1' or 'srisp-6'");
+    CHECK(with("format", "srisp-9") == "metadata 'format' is 'srisp-9', must be 'srisp-1' or 'srisp-7'");
     CHECK(with("kernel_size", "5") == "metadata 'kernel_size' is '5', must be '3' or '1'");
     CHECK(with("dictionary_size", "0") == "metadata 'dictionary_size' is '0', must be 1 … 64");
     CHECK(with("dictionary_size", "99999999999") == "metadata 'dictionary_size' is '99999999999', must be 1 … 64");

@@ -160,3 +160,36 @@ TEST_CASE("parameters that a stranger has nested, filled or swollen are refused 
         object["k" + std::to_string(i)] = 0;
     CHECK(refused(object.dump()).find("unknown key 'k0'") != std::string::npos);
 }
+
+TEST_CASE("how unsure the brightness is, and by how much it was changed, come back from JSON; older ones lack both")
+{
+    Parameters p = random_parameters(3);
+    CHECK(to_json(p).find("brightness") == std::string::npos);
+    p.brightness_sd_ev = 0.7390625f;
+    p.brightness_ev = -1.1f;
+    for (const int indent : { 2, -1 }) {
+        const auto read = parameters_from_json(to_json(p, indent), "'p.json'");
+        REQUIRE(read);
+        CHECK(read->brightness_sd_ev == p.brightness_sd_ev);
+        CHECK(read->brightness_ev == p.brightness_ev);
+    }
+    CHECK(json::parse(to_json(p, -1)).at("brightness_sd_ev").get<float>() == p.brightness_sd_ev);
+    const auto older = parameters_from_json(to_json(random_parameters(3)), "'p.json'");
+    REQUIRE(older);
+    CHECK(!older->brightness_sd_ev);
+    CHECK(older->brightness_ev == 0);
+}
+
+TEST_CASE("an impossible deviation of the brightness is refused")
+{
+    CHECK(message_after([](json& object) { object["brightness_sd_ev"] = -0.5; }) ==
+          "parameters in 'p.json': 'brightness_sd_ev' has -0.5, must be 0 to 20");
+    CHECK(message_after([](json& object) { object["brightness_sd_ev"] = 21; }) ==
+          "parameters in 'p.json': 'brightness_sd_ev' has 21, must be 0 to 20");
+    CHECK(message_after([](json& object) {
+              object["brightness_sd_ev"] = "x";
+          }).find("parameters in 'p.json' 'brightness_sd_ev' must hold finite numbers") == 0);
+    CHECK(message_after([](json& object) {
+              object["brightness_ev"] = nullptr;
+          }).find("parameters in 'p.json' 'brightness_ev' must hold finite numbers") == 0);
+}

@@ -23,7 +23,8 @@ bool at_default(const Option& option, const Recipe& recipe)
     REQUIRE(set_by_text(set, option.key, option.default_value));
     return std::visit(
         [&](auto member) {
-            if constexpr (std::is_same_v<decltype(member), std::optional<Parameters> Recipe::*>)
+            if constexpr (std::is_same_v<decltype(member), std::optional<Parameters> Recipe::*> ||
+                          std::is_same_v<decltype(member), std::optional<Brightness> Recipe::*>)
                 return true;
             else
                 return set.*member == recipe.*member;

@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include "random_model.h"
 #include "scratch_folder.h"
 
 using namespace srisp;
@@ -73,6 +74,94 @@ TEST_CASE("one call leads from files to pixels, and one back")
     const auto replayed = unprocess(kPhoto, "", given);
     REQUIRE_MESSAGE(replayed, (replayed ? "" : replayed.error().message));
     CHECK(replayed->pixels() == raw->pixels());
+}
+
+TEST_CASE("a brightness makes the RAW-like image brighter, is recorded, and the way back gives the photo")
+{
+    const auto plain = unprocess(kPhoto, kReference);
+    REQUIRE_MESSAGE(plain, (plain ? "" : plain.error().message));
+    const auto chosen = recorded_parameters(plain->spec(), "raw");
+    REQUIRE(chosen);
+    Options options;
+    options.brightness = Brightness{ -1, false };
+    const auto darker = unprocess(kPhoto, kReference, options);
+    REQUIRE_MESSAGE(darker, (darker ? "" : darker.error().message));
+    const auto recorded = recorded_parameters(darker->spec(), "raw");
+    REQUIRE(recorded);
+    CHECK(recorded->gain == 2 * chosen->gain);
+    CHECK(recorded->brightness_ev == -1);
+    CHECK(recorded->brightness_sd_ev == chosen->brightness_sd_ev);
+    double sums[2] = {};
+    for (std::size_t i = 0; i < plain->pixels().size(); ++i) {
+        sums[0] += plain->pixels()[i];
+        sums[1] += darker->pixels()[i];
+    }
+    CHECK(sums[1] / sums[0] == doctest::Approx(0.5).epsilon(0.05)); // highlights stay
+
+    const ScratchFolder folder;
+    REQUIRE(plain->save(folder.path("plain.tif")));
+    REQUIRE(darker->save(folder.path("darker.tif")));
+    const auto back = process(folder.path("plain.tif")), back_of_darker = process(folder.path("darker.tif"));
+    REQUIRE(back);
+    REQUIRE(back_of_darker);
+    double difference = 0;
+    for (std::size_t i = 0; i < back->pixels().size(); ++i)
+        difference += std::abs(back->pixels()[i] - back_of_darker->pixels()[i]);
+    CHECK(difference / double(back->pixels().size()) < 2e-3);
+
+    options.parameters = chosen;
+    const auto replayed = unprocess(kPhoto, "", options);
+    REQUIRE_MESSAGE(replayed, (replayed ? "" : replayed.error().message));
+    CHECK(replayed->pixels() == darker->pixels());
+    options.parameters = recorded;
+    options.brightness = Brightness{ 1, false };
+    CHECK(unprocess(kPhoto, "", options)->pixels() == plain->pixels());
+    CHECK(has(refusal(process(folder.path("plain.tif"), options)), "brightness is for photos that become RAW-like"));
+}
+
+TEST_CASE("a sampled brightness is the same for the same photo and seed, and needs a deviation")
+{
+    const auto ev_of = [](std::uint64_t seed, std::optional<Parameters> parameters = {}) {
+        Options options;
+        options.brightness = Brightness{ 0, true };
+        options.seed = seed;
+        options.parameters = std::move(parameters);
+        const auto raw = unprocess(kPhoto, options.parameters ? "" : kReference, options);
+        REQUIRE_MESSAGE(raw, (raw ? "" : raw.error().message));
+        CHECK(has(raw->spec().get_string_attribute("unprocess:notes"), "EV was drawn"));
+        return recorded_parameters(raw->spec(), "raw")->brightness_ev;
+    };
+    const float first = ev_of(1);
+    CHECK(ev_of(2) != first);
+    CHECK(ev_of(1) == first);
+
+    auto parameters = recorded_parameters(unprocess(kPhoto, kReference)->spec(), "raw");
+    REQUIRE(parameters);
+    CHECK(ev_of(1, *parameters) == first);
+    parameters->brightness_sd_ev.reset();
+    Options options;
+    options.brightness = Brightness{ 0, true };
+    options.parameters = *parameters;
+    CHECK(has(refusal(unprocess(kPhoto, "", options)), "brightness 'sample' has no standard deviation to draw from"));
+}
+
+TEST_CASE("an unsure brightness is among the notes of a result, of chosen parameters and of given ones")
+{
+    const ScratchFolder folder;
+    Options options;
+    options.model = random_srisp_7_model(1, 2, 64, 1.25).write(folder.path("m.safetensors"));
+    const auto raw = unprocess(kPhoto, kReference, options);
+    REQUIRE_MESSAGE(raw, (raw ? "" : raw.error().message));
+    const std::string note = "the brightness is unsure, its standard deviation is 1.25 EV; brightness=EV";
+    CHECK(has(raw->spec().get_string_attribute("unprocess:notes"), note));
+    const auto parameters = recorded_parameters(raw->spec(), "raw");
+    REQUIRE(parameters);
+    options.parameters = *parameters;
+    const auto replayed = unprocess(kPhoto, "", options);
+    REQUIRE(replayed);
+    CHECK(has(replayed->spec().get_string_attribute("unprocess:notes"), note));
+    options.parameters->brightness_sd_ev = 0.5f;
+    CHECK(!has(unprocess(kPhoto, "", options)->spec().get_string_attribute("unprocess:notes"), "unsure"));
 }
 
 TEST_CASE("a PNG file holds the orientation")
