@@ -48,7 +48,7 @@ check "pointwise parameters do not fit the default model" says 1 "model" \
     "$tool" "$photo" --srisp-params:model=pointwise "$reference" --srisp-unprocess:model=default:params=edited.json - \
     --srisp-process:model=pointwise -o no.tif
 # Large enough for the table of a pointwise model.
-$stock "$photo" --resize 1000x0 -o large.tif
+$stock "$photo" --resize 400x0 -o large.tif
 for model in default pointwise; do
     $tool large.tif --srisp-unprocess:model=$model "$reference" -o plain.exr
     $tool large.tif --srisp-unprocess:model=$model:precision=fast "$reference" -o fast.exr

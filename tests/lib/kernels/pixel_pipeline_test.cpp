@@ -117,10 +117,11 @@ TEST_CASE("a table has the tone map's values at its points and stays near betwee
         const PixelPipeline pipeline = made_up_pipeline(direction);
         const std::vector<float> rgb = random_rgb(0, 1);
         std::vector<float> points;
-        for (const int at : { 0, 1, 31, 63, 64 })
-            for (const int other : { 0, 17, 64 })
-                for (const int value : { at, other, 64 - at })
-                    points.push_back(value / 64.0f);
+        constexpr int last = ToneTable::kSide - 1;
+        for (const int at : { 0, 1, 15, last - 1, last })
+            for (const int other : { 0, 9, last })
+                for (const int value : { at, other, last - at })
+                    points.push_back(value / float(last));
         on_each_instruction_set([&] {
             const std::unique_ptr<ToneTable> table = table_of(pipeline);
             const Difference between =
