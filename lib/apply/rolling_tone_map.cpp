@@ -10,8 +10,7 @@ namespace {
 
 class RollingRunner : public ToneMapRunner {
 public:
-    explicit RollingRunner(const RollingToneMap& tone_map)
-        : m_tone_map(tone_map), m_radius(tone_map.radius()), m_out(tone_map.max_tile_width())
+    explicit RollingRunner(const RollingToneMap& tone_map) : m_tone_map(tone_map), m_out(tone_map.max_tile_width())
     {
         for (int l = 0; l < kToneLayers; ++l)
             // A kernel needs three rows; v itself is needed again when φ is known, and the input is then a halo ahead.
@@ -24,9 +23,9 @@ public:
     {
         const ImageTile tile{ roi, width, height };
         for (int l = 0; l < kToneLayers; ++l)
-            m_inputs[l].next_row = std::max(roi.y0 - (kToneLayers - l) * m_radius, 0);
+            m_inputs[l].next_row = std::max(roi.y0 - (kToneLayers - l), 0);
         for (int y = roi.y0; y < roi.y1; ++y) {
-            compute_rows_up_to(kToneLayers - 1, tile.clamp_row(y + m_radius), tile, load);
+            compute_rows_up_to(kToneLayers - 1, tile.clamp_row(y + 1), tile, load);
             convolve(kToneLayers - 1, y, 0, tile.width_px(), m_out.planes().data, m_out.planes().stride, tile);
             m_out.add_and_clamp({ m_inputs[0].rows.pixel(0, y), m_inputs[0].rows.plane_stride() }, tile.width_px());
             store(y, m_out.planes());
@@ -45,8 +44,8 @@ private:
     {
         RowRing& input = m_inputs[layer].rows;
         ConvolutionRow row{};
-        for (int dy = -m_radius, t = 0; dy <= m_radius; ++dy)
-            for (int dx = -m_radius; dx <= m_radius; ++dx, ++t)
+        for (int dy = -1, t = 0; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx, ++t)
                 row.taps[t] = input.pixel(x0 + dx, tile.clamp_row(y + dy));
         row.in_plane_stride = input.plane_stride();
         row.out = out;
@@ -62,7 +61,7 @@ private:
     {
         Input& input = m_inputs[layer];
         const int y = input.next_row++;
-        const int beside = (kToneLayers - layer) * m_radius;
+        const int beside = kToneLayers - layer;
         const int x0 = tile.first_column(beside), x1 = tile.end_column(beside);
         float* const row = input.rows.pixel(x0, y);
         if (layer == 0)
@@ -76,13 +75,12 @@ private:
     {
         for (Input& input = m_inputs[layer]; input.next_row <= y;) {
             if (layer > 0)
-                compute_rows_up_to(layer - 1, tile.clamp_row(input.next_row + m_radius), tile, load);
+                compute_rows_up_to(layer - 1, tile.clamp_row(input.next_row + 1), tile, load);
             compute_row(layer, tile, load);
         }
     }
 
     const RollingToneMap& m_tone_map;
-    const int m_radius;
     std::vector<Input> m_inputs;
     ToneMapOutput m_out;
 };

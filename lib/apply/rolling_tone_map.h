@@ -12,7 +12,7 @@ struct RollingLayer {
     void (*convolve_row)(const PackedConvolution& layer, const ConvolutionRow& row);
 };
 
-/// The tone map in plain sums: any kernel size, no row computed twice within a tile.
+/// The tone map of 3×3 kernels in plain sums: no row computed twice within a tile.
 class RollingToneMap : public ToneMap {
 public:
     /// `max_tile_width`: the widest tile whose rows stay in L2.
@@ -21,13 +21,12 @@ public:
     {
     }
 
-    int halo() const override { return radius() * kToneLayers; }
+    int halo() const override { return kToneLayers; }
     int max_tile_width() const override { return m_max_tile_width; }
     int good_tile_height() const override { return kTileHeight; }
     std::unique_ptr<ToneMapRunner> make_runner() const override;
 
     const RollingLayer& layer(int index) const { return m_layers[index]; }
-    int radius() const { return m_layers[0].weights.taps == 9 ? 1 : 0; } ///< of one kernel
 
 private:
     static constexpr int kTileHeight = 256; // the rows computed twice cost as much as 3 of its rows

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apply/tone_map.h"
 
+#include "apply/pointwise_tone_map.h"
 #include "apply/rolling_tone_map.h"
 #include "apply/winograd_tone_map.h"
 #include "kernels/bf16_convolution.h"
@@ -22,6 +23,15 @@ ConvolutionWeights mix_layer(const ConvolutionWeights& dictionary, const std::ve
     return mixed;
 }
 
+std::array<ConvolutionWeights, kToneLayers> mix_layers(const ToneDictionary& dictionary,
+                                                       const std::array<std::vector<float>, kToneLayers>& weights)
+{
+    std::array<ConvolutionWeights, kToneLayers> layers;
+    for (int l = 0; l < kToneLayers; ++l)
+        layers[l] = mix_layer(dictionary[l], weights[l]);
+    return layers;
+}
+
 ToneMethod tone_method(Precision precision)
 {
     if (precision == Precision::float32)
@@ -33,10 +43,10 @@ std::unique_ptr<const ToneMap> mix_tone_map(const ToneDictionary& dictionary,
                                             const std::array<std::vector<float>, kToneLayers>& weights,
                                             ToneMethod method)
 {
-    std::array<ConvolutionWeights, kToneLayers> layers;
-    for (int l = 0; l < kToneLayers; ++l)
-        layers[l] = mix_layer(dictionary[l], weights[l]);
-    switch (layers[0].taps == 9 ? method : ToneMethod::plain) {
+    const std::array<ConvolutionWeights, kToneLayers> layers = mix_layers(dictionary, weights);
+    if (layers[0].taps == 1)
+        return std::make_unique<PointwiseToneMap>(layers);
+    switch (method) {
     case ToneMethod::winograd:
         return std::make_unique<WinogradToneMap>(layers);
     case ToneMethod::bf16:

@@ -49,6 +49,10 @@ public:
 /// Σ_k weights[k] · atom k of a dictionary layer, kernels and biases alike [P eq. 2, 5]; float32.
 ConvolutionWeights mix_layer(const ConvolutionWeights& dictionary, const std::vector<float>& weights);
 
+/// The same for all layers of a tone map.
+std::array<ConvolutionWeights, kToneLayers> mix_layers(const ToneDictionary& dictionary,
+                                                       const std::array<std::vector<float>, kToneLayers>& weights);
+
 /// How 3×3 kernels are computed; 1×1 kernels are always plain sums.
 enum class ToneMethod {
     plain,    ///< plain sums in float32

@@ -18,17 +18,9 @@ void clamp01(Planes in, Planes out, std::size_t count);
 void power(Planes in, Planes out, std::size_t count, float exponent, float floor, float offset);
 /// clamp01(M v)
 void color_transform(Planes in, Planes out, std::size_t count, const Matrix3& matrix);
-/// clamp01(v · gains)
-void multiply(Planes in, Planes out, std::size_t count, const float gains[3]);
 /// Highlight-preserving inverse gain, scales s = 1 / g, unclamped (Brooks et al. 2019): v · max(m + (1 − m) s, s) with
 /// m = clamp01((mean(v) − 0.9) / 0.1)².
 void inverse_gain(Planes in, Planes out, std::size_t count, const float scales[3]);
-/// White balance and gain < 1 of the forward pass, which rebuild clipped highlights: gain · (u + m (max(u) − u)) with
-/// u = min(clamp01(v) · balance, 1 / gain), m = (clamp01((Σ min(u, 1) − 2.9) / 0.1) · b)² and
-/// b = max(max(u) − 1, 0) / (1 / gain − 1). Where all channels are clipped or nearly white and the brightest shows
-/// white (b = 1), all do: a gain below 1 would show how much of each was clipped. Less bright colours change less.
-void rebuild_highlights(Planes in, Planes out, std::size_t count, const float balance[3], float gain);
-
 /// Interleaved RGB to planes, and back. Exactly `count` pixels of the interleaved side are touched.
 void split_channels(const float* rgb, Planes out, std::size_t count);
 void join_channels(Planes in, float* rgb, std::size_t count);
@@ -37,9 +29,7 @@ void join_channels(Planes in, float* rgb, std::size_t count);
 namespace scalar {
 void power(Planes in, Planes out, std::size_t count, float exponent, float floor, float offset);
 void color_transform(Planes in, Planes out, std::size_t count, const Matrix3& matrix);
-void multiply(Planes in, Planes out, std::size_t count, const float gains[3]);
 void inverse_gain(Planes in, Planes out, std::size_t count, const float scales[3]);
-void rebuild_highlights(Planes in, Planes out, std::size_t count, const float balance[3], float gain);
 } // namespace scalar
 
 } // namespace srisp

@@ -11,7 +11,8 @@
 #include "bench_lines.h"
 #include "picture.h"
 
-constexpr double kMultiplyAddsPerPixel = 20160; // the four layers of the spatial tone map [method 2]
+// The four layers of the tone map [method 2].
+constexpr double kMultiplyAddsPerPixel = 20160, kPointwiseMultiplyAddsPerPixel = kMultiplyAddsPerPixel / 9;
 
 /// The photo of the settings, repeated to that size; without one, something smooth in places and busy in others.
 Picture bench_picture(const BenchSettings& settings, int width, int height);

@@ -15,7 +15,7 @@
 #include "features/image_features.h"
 #include "features/match_features.h"
 #include "image_compare.h"
-#include "kernels/pointwise.h"
+#include "kernels/color_blocks.h"
 #include "model/model_data.h"
 #include "random_model.h"
 #include "select/selection.h"
@@ -174,7 +174,8 @@ TEST_CASE("match features of an image without pixels that weigh say that all shi
 TEST_CASE("a gain below 1 rebuilds clipped highlights")
 {
     constexpr int colors = 61;
-    const float balance[] = { 2, 1, 1.25f };
+    const ColorBlocks blocks{ { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, 1, { 2, 1, 1.25f }, { 0.6f, 0.6f, 0.6f }, true };
+    const float* const balance = blocks.white_balance;
     std::vector<float> rgb(3 * colors + kRowSlack * 3), result;
     const Planes planes{ rgb.data(), colors + std::ptrdiff_t(kRowSlack) };
     for (int i = 0; i < colors; ++i)
@@ -182,7 +183,7 @@ TEST_CASE("a gain below 1 rebuilds clipped highlights")
             const double exposure = 0.05 * i, tint = 1 + 0.1 * std::sin(5 * exposure + 2 * c);
             planes.plane(c)[i] = static_cast<float>(std::min(exposure * tint / balance[c], 1.0));
         }
-    rebuild_highlights(planes, planes, colors, balance, 0.6f);
+    before_tone_map(blocks, planes, planes, colors);
     for (int i = 0; i < colors; ++i)
         for (int c = 0; c < 3; ++c)
             result.push_back(planes.plane(c)[i]);

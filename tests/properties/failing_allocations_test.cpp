@@ -75,6 +75,31 @@ TEST_CASE("select and apply without memory for one piece")
         });
 }
 
+TEST_CASE("apply by a table without memory for one piece")
+{
+    const Threads threads;
+    const ScratchFolder folder;
+    const auto model = Model::load(random_model(1, 1).write(folder.path("random.safetensors")));
+    REQUIRE(model);
+    Parameters parameters;
+    parameters.model_hash = (*model)->hash();
+    parameters.tone_weights.fill({ 0.1f, 0.3f, 0.2f, 0.25f, 0.15f });
+    std::vector<float> photo(std::size_t(3) * 96 * 80, 0.5f), raw(photo.size());
+    const ImagePart part{ { photo.data(), 96, 80, 3, 3 * 96 }, 0, 0, 1000, 1000 }; // of an image that is worth a table
+    allocations::fail_each(1, [&]() -> Expected<std::size_t> {
+        const auto applier = Applier::create(**model, parameters, Direction::reverse, Precision::fast);
+        if (!applier)
+            return applier.error();
+        std::fill(raw.begin(), raw.end(), -1.0f);
+        ApplyOptions options;
+        options.threads = kThreads;
+        if (const Status run = (*applier)->run(part, { 0, 96, 0, 80 }, { raw.data(), 96, 80, 3, 3 * 96 }, options);
+            !run)
+            return run.error();
+        return hash_of(raw);
+    });
+}
+
 TEST_CASE("a reference without memory for one large piece")
 {
     const Threads threads;

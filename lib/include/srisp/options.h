@@ -16,11 +16,13 @@ enum class Direction {
     forward  ///< RAW-like camera RGB → display-encoded sRGB ("process")
 };
 
-/// How the tone map of 3×3 kernels is computed; other blocks and kernels are the same in both.
+/// How the tone map is computed; other blocks are the same in both.
 enum class Precision {
     float32, ///< plain sums in float32
-    fast ///< by bf16 where the processor has AVX-512 BF16: on photos within 1e-3 of the above, some 1e-5 on average;
-         ///< elsewhere with fewer multiply-adds in float32: within 1e-4, 1e-6 on average
+    fast ///< pointwise models: a table of 33³ points, tetrahedral between them, for images of 72,000 pixels and more:
+         ///< on photos within 1e-4 of the above, some 1e-6 on average. Spatial ones: by bf16 where the processor has
+         ///< AVX-512 BF16, on photos within 1e-3 of the above, some 1e-5 on average; elsewhere with fewer multiply-adds
+         ///< in float32, within 1e-4, 1e-6 on average
 };
 
 /// How the stored colour values of an image are to be read.

@@ -58,12 +58,17 @@ struct Fixture {
     }
 };
 
+ApplyOptions on_threads(int threads)
+{
+    ApplyOptions options;
+    options.threads = threads;
+    return options;
+}
+
 Image applied(const Applier& applier, Image source, int threads = 1)
 {
     Image target{ source.width, source.height };
-    ApplyOptions options;
-    options.threads = threads;
-    const Status status = applier.run(source.view(), target.view(), options);
+    const Status status = applier.run(source.view(), target.view(), on_threads(threads));
     REQUIRE_MESSAGE(status, status.error().message);
     return target;
 }
@@ -74,6 +79,7 @@ std::vector<double> tone_mapped(const Fixture& fixture, const Image& image, cons
     std::vector<double> v(image.values.begin(), image.values.end());
     std::vector<double> in = v;
     int inputs = 3;
+    const int taps = fixture.model->kernel_size() * fixture.model->kernel_size();
     for (int l = 0; l < 4; ++l) {
         const std::string name = "dictionary.tone_reverse." + std::to_string(l);
         const std::vector<float>& weight = file.tensors.at(name + ".weight").values;
@@ -87,10 +93,10 @@ std::vector<double> tone_mapped(const Fixture& fixture, const Image& image, cons
                     for (int k = 0; k < 5; ++k) {
                         double atom = bias[k * outputs + o];
                         for (int i = 0; i < inputs; ++i)
-                            for (int t = 0; t < 9; ++t) {
-                                const int sx = std::clamp(x + t % 3 - 1, 0, image.width - 1);
-                                const int sy = std::clamp(y + t / 3 - 1, 0, image.height - 1);
-                                atom += weight[((k * outputs + o) * inputs + i) * 9 + t] *
+                            for (int t = 0; t < taps; ++t) {
+                                const int sx = std::clamp(x + (taps == 1 ? 0 : t % 3 - 1), 0, image.width - 1);
+                                const int sy = std::clamp(y + (taps == 1 ? 0 : t / 3 - 1), 0, image.height - 1);
+                                atom += weight[((k * outputs + o) * inputs + i) * taps + t] *
                                         in[(std::size_t(sy) * image.width + sx) * inputs + i];
                             }
                         sum += fixture.parameters.tone_weights[l][k] * atom;
@@ -147,9 +153,11 @@ TEST_CASE("fast stays near float32, and is something else")
 TEST_CASE("every size from 1 × 1 gives the same bits with any number of threads")
 {
     on_each_fast_method([&] {
-        const Fixture fixture;
-        for (const Precision precision : { Precision::float32, Precision::fast }) {
-            const auto applier = fixture.applier(Direction::reverse, precision);
+        const Fixture spatial(3), pointwise(1);
+        for (const auto& [fixture, precision] : { std::pair(&spatial, Precision::float32),
+                                                  { &spatial, Precision::fast },
+                                                  { &pointwise, Precision::float32 } }) {
+            const auto applier = fixture->applier(Direction::reverse, precision);
             for (const auto& [width, height] :
                  { std::pair(1, 1), std::pair(1, 300), std::pair(1000, 1), std::pair(2, 3), std::pair(9, 9),
                    std::pair(187, 20), std::pair(189, 33), std::pair(401, 270) }) {
@@ -169,7 +177,8 @@ TEST_CASE("any region of interest, from any part of the image, has the bits of t
 {
     on_each_fast_method([&] {
         for (const auto& [kernel_size, precision] :
-             { std::pair(3, Precision::float32), std::pair(3, Precision::fast), std::pair(1, Precision::float32) }) {
+             { std::pair(3, Precision::float32), std::pair(3, Precision::fast), std::pair(1, Precision::float32),
+               std::pair(1, Precision::fast) }) {
             const Fixture fixture(kernel_size);
             const auto applier = fixture.applier(Direction::reverse, precision);
             Image source = random_image(300, 150);
@@ -183,7 +192,7 @@ TEST_CASE("any region of interest, from any part of the image, has the bits of t
                 const ImageView part{ source.view().pixel(sx, sy), std::min(roi.x1 + halo, 300) - sx,
                                       std::min(roi.y1 + halo, 150) - sy, 3, 900 };
                 Image target{ roi.x1 - roi.x0, roi.y1 - roi.y0 };
-                REQUIRE(applier->run({ part, sx, sy, 300, 150 }, roi, target.view()));
+                REQUIRE(applier->run({ part, sx, sy, 300, 150 }, roi, target.view(), on_threads(1 + i % 3)));
                 bool same = true;
                 for (int y = 0; y < target.height; ++y)
                     same &= std::equal(target.view().pixel(0, y), target.view().pixel(0, y) + 3 * target.width,
@@ -199,9 +208,11 @@ TEST_CASE("any region of interest, from any part of the image, has the bits of t
 TEST_CASE("in place equals a copy, RGBA strides too")
 {
     on_each_fast_method([&] {
-        const Fixture fixture;
-        for (const Precision precision : { Precision::float32, Precision::fast }) {
-            const auto applier = fixture.applier(Direction::forward, precision);
+        const Fixture spatial(3), pointwise(1);
+        for (const auto& [fixture, precision] : { std::pair(&spatial, Precision::float32),
+                                                  { &spatial, Precision::fast },
+                                                  { &pointwise, Precision::float32 } }) {
+            const auto applier = fixture->applier(Direction::forward, precision);
             Image source = random_image(230, 1100); // several bands
             const Image expected = applied(*applier, source);
             Image rgba{ 230, 1100, 4 };
@@ -209,10 +220,8 @@ TEST_CASE("in place equals a copy, RGBA strides too")
                 for (int x = 0; x < 230; ++x)
                     std::copy_n(source.view().pixel(x, y), 3, rgba.view().pixel(x, y));
             for (const int threads : { 1, 3 }) {
-                ApplyOptions options;
-                options.threads = threads;
                 Image in_place = source;
-                REQUIRE(applier->run(in_place.view(), in_place.view(), options));
+                REQUIRE(applier->run(in_place.view(), in_place.view(), on_threads(threads)));
                 CHECK(in_place.values == expected.values);
             }
             REQUIRE(applier->run(rgba.view(), rgba.view()));
@@ -226,25 +235,102 @@ TEST_CASE("in place equals a copy, RGBA strides too")
     });
 }
 
+TEST_CASE("the pointwise tone map equals a plain one in double")
+{
+    Fixture fixture(1);
+    fixture.parameters.color = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+    fixture.parameters.gamma = fixture.parameters.gain = 1;
+    fixture.parameters.white_balance = { 1, 1, 1 };
+    const Image source = random_image(7, 27);
+    const std::vector<double> expected = tone_mapped(fixture, source, random_model(1, 1));
+    on_each_instruction_set([&] {
+        const Difference difference = compare(applied(*fixture.applier(), source).values, expected);
+        INFO(difference.text);
+        CHECK(difference.largest <= 1e-5);
+    });
+}
+
+TEST_CASE("fast of a pointwise model is near float32 where an image is worth a table, and float32 where it is not")
+{
+    const Fixture fixture(1);
+    for (const Direction direction : { Direction::reverse, Direction::forward }) {
+        const auto plain = fixture.applier(direction), fast = fixture.applier(direction, Precision::fast);
+        const Image small = random_image(260, 260), large = random_image(300, 310);
+        CHECK(applied(*fast, small).values == applied(*plain, small).values);
+        const Image by_table = applied(*fast, large);
+        const Difference difference = compare(by_table.values, applied(*plain, large).values);
+        INFO(difference.text);
+        CHECK(difference.percentile_99_9 <= 5e-4);
+        CHECK(difference.largest <= 2e-3);
+        CHECK(difference.largest > 0);
+        for (const int threads : { 2, 3, 8 })
+            CHECK(applied(*fast, large, threads).values == by_table.values);
+        // A part has the bits of the whole, however few pixels it has.
+        Image source = large, target{ 5, 3 };
+        REQUIRE(fixture.applier(direction, Precision::fast)
+                    ->run({ source.view(), 0, 0, 300, 310 }, { 100, 105, 50, 53 }, target.view()));
+        bool same = true;
+        for (int y = 0; y < 3; ++y)
+            same &= std::equal(target.values.begin() + 15 * y, target.values.begin() + 15 * (y + 1),
+                               by_table.values.begin() + 3 * (300 * (50 + y) + 100));
+        CHECK(same);
+    }
+}
+
+TEST_CASE("a pointwise model works on rows with gaps, on pixels with gaps, and where other pixels become its target")
+{
+    const Fixture fixture(1);
+    const auto applier = fixture.applier();
+    const Image source = random_image(100, 90), expected = applied(*applier, source);
+    for (const int channels : { 3, 4 })
+        for (const int gap : { 0, 7 })
+            for (const int threads : { 1, 3 }) {
+                INFO(channels, " channels, ", gap, " floats between rows, threads ", threads);
+                const std::ptrdiff_t y_stride = channels * 100 + gap;
+                std::vector<float> memory(y_stride * 90, -3.0f);
+                const MutableImageView view{ memory.data(), 100, 90, channels, y_stride };
+                for (int y = 0; y < 90; ++y)
+                    for (int x = 0; x < 100; ++x)
+                        std::copy_n(&source.values[3 * (100 * y + x)], 3, view.pixel(x, y));
+                REQUIRE(applier->run(view, view, on_threads(threads)));
+                bool same = true;
+                for (int y = 0; y < 90; ++y) {
+                    for (int x = 0; x < 100; ++x) {
+                        same &= std::equal(view.pixel(x, y), view.pixel(x, y) + 3, &expected.values[3 * (100 * y + x)]);
+                        same &= channels == 3 || view.pixel(x, y)[3] == -3.0f;
+                    }
+                    same &= gap == 0 || view.pixel(100, y)[0] == -3.0f;
+                }
+                CHECK(same);
+            }
+    Image moved = source; // rows 40 and below to the top
+    MutableImageView top = moved.view();
+    top.height = 50;
+    REQUIRE(applier->run({ moved.view(), 0, 0, 100, 90 }, { 0, 100, 40, 90 }, top, on_threads(2)));
+    CHECK(
+        std::equal(moved.values.begin(), moved.values.begin() + 3 * 100 * 50, expected.values.begin() + 3 * 100 * 40));
+}
+
 TEST_CASE("progress grows to its end on the caller's thread, and false cancels")
 {
-    const Fixture fixture;
-    Image source = random_image(400, 400), target{ 400, 400 };
-    ApplyOptions options;
-    options.threads = 1;
-    std::vector<float> reported;
-    options.progress = [&](float part) {
-        reported.push_back(part);
-        return true;
-    };
-    REQUIRE(fixture.applier()->run(source.view(), target.view(), options));
-    CHECK(reported.size() > 3);
-    CHECK(std::is_sorted(reported.begin(), reported.end()));
-    CHECK(reported.back() == 1.0f);
-    options.progress = [](float) { return false; };
-    const Status status = fixture.applier()->run(source.view(), target.view(), options);
-    REQUIRE(!status);
-    CHECK(status.error().message == "apply: cancelled");
+    for (const int kernel_size : { 3, 1 }) {
+        const Fixture fixture(kernel_size);
+        Image source = random_image(400, 400), target{ 400, 400 };
+        ApplyOptions options = on_threads(1);
+        std::vector<float> reported;
+        options.progress = [&](float part) {
+            reported.push_back(part);
+            return true;
+        };
+        REQUIRE(fixture.applier()->run(source.view(), target.view(), options));
+        CHECK(reported.size() > 3);
+        CHECK(std::is_sorted(reported.begin(), reported.end()));
+        CHECK(reported.back() == 1.0f);
+        options.progress = [](float) { return false; };
+        const Status status = fixture.applier()->run(source.view(), target.view(), options);
+        REQUIRE(!status);
+        CHECK(status.error().message == "apply: cancelled");
+    }
 }
 
 TEST_CASE("regions, targets and sources that do not fit are refused with their numbers")
