@@ -25,21 +25,31 @@ int SrispInput::supports(OIIO::string_view feature) const
            feature == "mipmap";
 }
 
-bool SrispInput::valid_file(const std::string& name) const
+/// Whether it is; fails where there is no memory to look.
+static Expected<bool> looks_ours(const std::string& name)
 {
     bool ours = false;
     const Status looked = guarded_step([&]() -> Status {
         ours = is_our_name(name);
         return {};
     });
-    return looked && ours;
+    return looked ? Expected<bool>(ours) : looked.error();
+}
+
+bool SrispInput::valid_file(const std::string& name) const
+{
+    const auto ours = looks_ours(name);
+    return ours && *ours;
 }
 
 bool SrispInput::open(const std::string& name, OIIO::ImageSpec& spec, const OIIO::ImageSpec& config)
 {
     // OpenImageIO 2.4 sets "nowait" when it offers a file that nobody knows to every reader, and holds a lock meanwhile
     // that any call of ours would wait for.
-    if (config.get_int_attribute("nowait") || !valid_file(name))
+    const auto ours = config.get_int_attribute("nowait") ? Expected<bool>(false) : looks_ours(name);
+    if (!ours)
+        return fail(ours.error().message);
+    if (!*ours)
         return fail("'" + name + "': is not a recipe of srisp's");
     close();
     const Status opened = guarded_step([&]() -> Status {

@@ -7,7 +7,8 @@
 // Eight numbers at once, by the compilers' own vectors: the trainer has no other library for it. Values go by
 // reference, since how they are passed would depend on the instruction set.
 
-/// A function that is compiled for AVX2, too, and chosen by the processor. Same bits: neither contracts to FMA.
+/// A function that is compiled for AVX2, too, and chosen by the processor. Same bits: neither contracts to FMA. Nothing
+/// in it may throw, so it takes memory that is there: GCC 12 loses track of where exceptions go from such a function.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define SRISP_WIDE_LANES __attribute__((target_clones("avx2", "default")))
 #else

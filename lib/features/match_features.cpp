@@ -31,42 +31,57 @@ constexpr double kSmoothing[] = { 0.5, 1 }; // cells
 constexpr float kSharpness = 25, kNegligible = -20;
 constexpr float kNoMatch = 1e-6f; // least max c: below is rounding
 
-/// ln of each value; at most kLanes - 1 more follow.
-SRISP_WIDE_LANES std::array<std::vector<float>, 3> logarithms(const ReducedImage& image)
+std::size_t whole_lanes(std::size_t count)
 {
-    const std::size_t count = image[0].size(), rounded = (count + kLanes - 1) / kLanes * kLanes;
-    std::array<std::vector<float>, 3> logs;
-    for (int c = 0; c < 3; ++c) {
-        logs[c] = image[c];
-        logs[c].resize(rounded, 1.0f);
-        for (std::size_t i = 0; i < rounded; i += kLanes) {
-            Lanes v;
-            load(&logs[c][i], v);
-            raise(v, std::numeric_limits<float>::min());
-            take_log(v);
-            store(v, &logs[c][i]);
-        }
-    }
-    return logs;
+    return (count + kLanes - 1) / kLanes * kLanes;
 }
 
-/// As a typical camera would see it; at most kLanes - 1 more values follow. `logs`: of the linear image.
-SRISP_WIDE_LANES ReducedImage seen_by_camera(const std::array<std::vector<float>, 3>& logs, double gamma)
+/// ln of each of whole lanes of values, in place.
+SRISP_WIDE_LANES void take_logs(float* values, std::size_t count)
 {
-    const auto exponent = static_cast<float>(gamma / kSourceGamma);
-    const std::size_t count = logs[0].size();
-    ReducedImage result = { std::vector<float>(count), std::vector<float>(count), std::vector<float>(count) };
+    for (std::size_t i = 0; i < count; i += kLanes) {
+        Lanes v;
+        load(values + i, v);
+        raise(v, std::numeric_limits<float>::min());
+        take_log(v);
+        store(v, values + i);
+    }
+}
+
+/// ln of an image's values; 0 up to whole lanes.
+ReducedImage logarithms(ReducedImage image)
+{
+    for (std::vector<float>& channel : image) {
+        channel.resize(whole_lanes(channel.size()), 1.0f);
+        take_logs(channel.data(), channel.size());
+    }
+    return image;
+}
+
+/// R, G and B of whole lanes of pixels.
+using Channels = std::array<float*, 3>;
+using ConstChannels = std::array<const float*, 3>;
+
+SRISP_WIDE_LANES void see_by_camera(const ConstChannels& logs, float exponent, std::size_t count,
+                                    const Channels& result)
+{
     for (std::size_t i = 0; i < count; i += kLanes) {
         Lanes v[3];
         for (int c = 0; c < 3; ++c) {
-            load(&logs[c][i], v[c]);
+            load(logs[c] + i, v[c]);
             v[c] *= exponent;
             take_exp(v[c]);
         }
         for (int c = 0; c < 3; ++c)
-            store(kCamera[c * 3] * v[0] + kCamera[c * 3 + 1] * v[1] + kCamera[c * 3 + 2] * v[2], &result[c][i]);
+            store(kCamera[c * 3] * v[0] + kCamera[c * 3 + 1] * v[1] + kCamera[c * 3 + 2] * v[2], result[c] + i);
     }
-    return result;
+}
+
+/// As a typical camera would see it. `logs`: of the linear image.
+void see_by_camera(const ReducedImage& logs, double gamma, ReducedImage& result)
+{
+    see_by_camera({ logs[0].data(), logs[1].data(), logs[2].data() }, static_cast<float>(gamma / kSourceGamma),
+                  logs[0].size(), { result[0].data(), result[1].data(), result[2].data() });
 }
 
 double mean(const std::vector<float>& values, std::size_t count)
@@ -77,11 +92,6 @@ double mean(const std::vector<float>& values, std::size_t count)
     return sum / static_cast<double>(count);
 }
 
-/// Where each pixel of an image lies among the cells, and what it weighs.
-struct Places {
-    std::vector<float> x, y, z, weight;
-};
-
 inline __attribute__((always_inline)) void to_coordinate(Lanes& distance, float cell_size)
 {
     distance = distance / cell_size + float(kSide / 2);
@@ -89,19 +99,22 @@ inline __attribute__((always_inline)) void to_coordinate(Lanes& distance, float 
     limit(distance, kLastCoordinate);
 }
 
-/// x: brightness, y: ln(R / G), z: ln(B / G); at most kLanes - 1 pixels of no weight follow.
-SRISP_WIDE_LANES Places places_of(const ReducedImage& image, float dark)
+/// Where pixels lie among the cells, and the square of what they weigh. x: brightness, y: ln(R / G), z: ln(B / G).
+struct Places {
+    float x[kLanes], y[kLanes], z[kLanes], weight[kLanes];
+};
+
+/// Of whole lanes of pixels.
+SRISP_WIDE_LANES void find_places(const ConstChannels& image, std::size_t count, float dark, Places* places)
 {
-    const std::size_t count = image[0].size(), rounded = (count + kLanes - 1) / kLanes * kLanes;
-    Places places{ std::vector<float>(rounded), std::vector<float>(rounded), std::vector<float>(rounded),
-                   std::vector<float>(rounded) };
-    for (std::size_t i = 0; i < count; i += kLanes) {
-        Lanes rgb[3] = {};
+    for (std::size_t i = 0; i < count; i += kLanes, ++places) {
+        Lanes rgb[3];
         for (int c = 0; c < 3; ++c)
-            std::memcpy(&rgb[c], &image[c][i], std::min<std::size_t>(kLanes, count - i) * sizeof(float));
-        Lanes brightness = (rgb[0] + rgb[1] + rgb[2]) / 3.0f;
+            load(image[c] + i, rgb[c]);
+        Lanes brightness = (rgb[0] + rgb[1] + rgb[2]) / 3.0f, weight = brightness;
         const IntLanes weighs = (rgb[0] < kClipped) & (rgb[1] < kClipped) & (rgb[2] < kClipped) & (brightness > dark);
-        store(weighs ? brightness : Lanes{}, &places.weight[i]);
+        raise(weight, kLeastWeight);
+        store(weighs ? weight : Lanes{}, places->weight);
         for (Lanes& v : rgb) {
             raise(v, kDarkestColor);
             take_log(v);
@@ -112,13 +125,10 @@ SRISP_WIDE_LANES Places places_of(const ReducedImage& image, float dark)
         to_coordinate(x, kBrightnessCell);
         to_coordinate(y, kColorCell);
         to_coordinate(z, kColorCell);
-        store(x, &places.x[i]);
-        store(y, &places.y[i]);
-        store(z, &places.z[i]);
+        store(x, places->x);
+        store(y, places->y);
+        store(z, places->z);
     }
-    for (float& weight : places.weight)
-        weight = weight > 0 ? std::sqrt(std::max(weight, kLeastWeight)) : 0;
-    return places;
 }
 
 /// A coordinate's cell and its nearness to the next.
@@ -143,18 +153,24 @@ void add(float* cells, const Place& x, const Place& y, const Place& z, float wei
         }
 }
 
-/// Square roots of the cells' shares.
+/// Square roots of the cells' shares. `image`: whole lanes of pixels, of which the first `count` are taken.
 void root_histogram(const ReducedImage& image, std::size_t count, float* cells)
 {
     const double dark = kDark * (mean(image[0], count) + mean(image[1], count) + mean(image[2], count)) / 3;
-    const Places places = places_of(image, static_cast<float>(dark));
+    std::vector<Places> all(image[0].size() / kLanes);
+    find_places({ image[0].data(), image[1].data(), image[2].data() }, image[0].size(), static_cast<float>(dark),
+                all.data());
     std::fill_n(cells, kCells, 0.0f);
     double sum = 0;
-    for (std::size_t i = 0; i < count; ++i)
-        if (const float weight = places.weight[i]; weight > 0) {
-            add(cells, Place(places.x[i]), Place(places.y[i]), Place(places.z[i]), weight);
-            sum += weight;
-        }
+    for (std::size_t i = 0; i < count; ++i) {
+        const Places& places = all[i / kLanes];
+        const std::size_t k = i % kLanes;
+        if (!(places.weight[k] > 0))
+            continue;
+        const float weight = std::sqrt(places.weight[k]);
+        add(cells, Place(places.x[k]), Place(places.y[k]), Place(places.z[k]), weight);
+        sum += weight;
+    }
     const auto scale = static_cast<float>(1 / std::max<double>(sum, kLeastWeight));
     for (int i = 0; i < kCells; ++i)
         if (cells[i] > 0) // few are
@@ -280,7 +296,11 @@ float* describe_peak(float* correlation, float* features)
 MatchReference::MatchReference(const ReducedImage& reference)
 {
     CubeFft cube;
-    root_histogram(reference, reference[0].size(), cube.real());
+    const std::size_t count = reference[0].size();
+    ReducedImage image = reference;
+    for (std::vector<float>& channel : image)
+        channel.resize(whole_lanes(count));
+    root_histogram(image, count, cube.real());
     cube.forward();
     m_real.assign(cube.real(), cube.real() + kCells);
     m_imaginary.assign(cube.imaginary(), cube.imaginary() + kCells);
@@ -289,12 +309,13 @@ MatchReference::MatchReference(const ReducedImage& reference)
 std::array<float, kMatchFeatures> match_features(const ReducedImage& linear_source, const MatchReference& reference)
 {
     const std::size_t count = linear_source[0].size();
-    const auto logs = logarithms(linear_source);
+    const ReducedImage logs = logarithms(linear_source);
+    ReducedImage seen = logs;
     std::array<float, kMatchFeatures> features;
     float* next = features.data();
     CubeFft cube;
     for (const double gamma : kGammas) {
-        const ReducedImage seen = seen_by_camera(logs, gamma);
+        see_by_camera(logs, gamma, seen);
         root_histogram(seen, count, cube.real());
         std::fill_n(cube.imaginary(), kCells, 0.0f);
         correlate(cube, reference);

@@ -92,7 +92,8 @@ TEST_CASE("a program's options are set by name")
           "unknown input 'camera'; known: auto, srgb, linear");
     CHECK(set_option(options, "sed", "3").error().message == "unknown option 'sed'; did you mean 'seed'?");
     CHECK(set_option(options, "hold", "1").error().message ==
-          "unknown option 'hold'; known: model, params, input, gainmap, precision, seed, mosaic, levels, noise, "
+          "unknown option 'hold'; known: model, params, input, gainmap, precision, brightness, seed, mosaic, levels, "
+          "noise, "
           "profile, noise_seed, allow_partial, isolate");
     CHECK(set_option(options, "params", "/nowhere/p.json").error().message ==
           "parameters '/nowhere/p.json': No such file or directory");

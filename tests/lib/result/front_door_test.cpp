@@ -109,11 +109,11 @@ TEST_CASE("a brightness makes the RAW-like image brighter, is recorded, and the 
         difference += std::abs(back->pixels()[i] - back_of_darker->pixels()[i]);
     CHECK(difference / double(back->pixels().size()) < 2e-3);
 
-    options.parameters = chosen;
+    options.parameters = *chosen;
     const auto replayed = unprocess(kPhoto, "", options);
     REQUIRE_MESSAGE(replayed, (replayed ? "" : replayed.error().message));
     CHECK(replayed->pixels() == darker->pixels());
-    options.parameters = recorded;
+    options.parameters = *recorded;
     options.brightness = Brightness{ 1, false };
     CHECK(unprocess(kPhoto, "", options)->pixels() == plain->pixels());
     CHECK(has(refusal(process(folder.path("plain.tif"), options)), "brightness is for photos that become RAW-like"));
