@@ -2,6 +2,7 @@
 #include "photo/pixel_source.h"
 
 #include <algorithm>
+#include <cstring>
 #include <ctime>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "base/recently_kept.h"
 #include "container/image_file.h"
 #include "container/image_limits.h"
+#include "photo/code_values.h"
+#include "photo/decoded_rows.h"
 
 namespace srisp {
 
@@ -27,29 +30,42 @@ void add_date(OIIO::ImageSpec& spec, const std::string& path)
         spec.attribute("DateTime", text);
 }
 
+struct Level {
+    int subimage, miplevel;
+};
+
 /// Whole rows of tiles are read; those asked for are copied.
-bool read_tile_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, int subimage, int miplevel, int y0, int y1,
-                    float* rows)
+bool read_tile_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const Level& level, int y0, int y1,
+                    OIIO::TypeDesc type, void* rows)
 {
     const int tile = spec.tile_height;
     const int first = y0 / tile * tile;
     const int end = std::min(first + rows_in_tiles(y1 - first, spec), spec.height);
-    const std::size_t row = std::size_t(spec.width) * std::size_t(spec.nchannels);
-    std::vector<float> tiles(row * std::size_t(end - first));
-    if (!input.read_tiles(subimage, miplevel, spec.x, spec.x + spec.width, spec.y + first, spec.y + end, spec.z,
-                          spec.z + 1, 0, spec.nchannels, OIIO::TypeFloat, tiles.data()))
+    const std::size_t row = std::size_t(spec.width) * std::size_t(spec.nchannels) * type.size();
+    const std::unique_ptr<unsigned char[]> tiles(new unsigned char[row * std::size_t(end - first)]);
+    if (!input.read_tiles(level.subimage, level.miplevel, spec.x, spec.x + spec.width, spec.y + first, spec.y + end,
+                          spec.z, spec.z + 1, 0, spec.nchannels, type, tiles.get()))
         return false;
-    std::copy_n(tiles.data() + row * (y0 - first), row * (y1 - y0), rows);
+    std::memcpy(rows, tiles.get() + row * std::size_t(y0 - first), row * std::size_t(y1 - y0));
     return true;
 }
 
-bool read_image_rows(OIIO::ImageInput& input, int subimage, int miplevel, int y0, int y1, float* rows)
+/// Values of a type, without gaps.
+bool read_image_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const Level& level, int y0, int y1,
+                     OIIO::TypeDesc type, void* rows)
 {
-    const OIIO::ImageSpec spec = input.spec_dimensions(subimage, miplevel);
     if (spec.tile_width)
-        return read_tile_rows(input, spec, subimage, miplevel, y0, y1, rows);
-    return input.read_scanlines(subimage, miplevel, spec.y + y0, spec.y + y1, spec.z, 0, spec.nchannels,
-                                OIIO::TypeFloat, rows);
+        return read_tile_rows(input, spec, level, y0, y1, type, rows);
+    return input.read_scanlines(level.subimage, level.miplevel, spec.y + y0, spec.y + y1, spec.z, 0, spec.nchannels,
+                                type, rows);
+}
+
+void to_floats(OIIO::TypeDesc type, const unsigned char* codes, std::size_t count, float* values)
+{
+    if (type == OIIO::TypeUInt8)
+        codes_to_floats<std::uint8_t>(codes, count, values);
+    else // memory of new[] or of pages, in rows of such codes: aligned
+        codes_to_floats(reinterpret_cast<const std::uint16_t*>(codes), count, values);
 }
 
 class FileSource : public PixelSource {
@@ -71,12 +87,39 @@ public:
         return spec;
     }
 
+    void expect_second_pass(int subimage) override
+    {
+        const OIIO::ImageSpec spec = m_file->spec_dimensions(subimage, 0);
+        m_offered.reset();
+        m_decoding = {};
+        if (holds_codes(spec))
+            m_decoding = { subimage, 0, DecodedRows::create(row_values(spec) * spec.format.size(), spec.height) };
+    }
+
     Status read_rows(int subimage, int miplevel, int y0, int y1, float* rows) override
     {
-        if (read_image_rows(*m_file, subimage, miplevel, y0, y1, rows))
+        const OIIO::ImageSpec spec = m_file->spec_dimensions(subimage, miplevel);
+        const Level level{ subimage, miplevel };
+        if (!holds_codes(spec)) // OpenImageIO makes floats of others
+            return read_image_rows(*m_file, spec, level, y0, y1, OIIO::TypeFloat, rows) ? Status() : reading_error();
+        const std::size_t values = row_values(spec) * std::size_t(y1 - y0);
+        if (take_decoded(level, y0)) {
+            to_floats(spec.format, m_taken.rows->row(y0), values, rows);
+            m_taken.rows->forget_before(y1);
             return {};
-        const std::string reason = m_file->geterror();
-        return Error{ reason.empty() ? m_name + ": cannot be read" : reason };
+        }
+        const bool keeps = m_decoding.rows && miplevel == 0 && m_decoding.subimage == subimage && m_decoding.next == y0;
+        if (!keeps)
+            m_scratch.resize(values * spec.format.size());
+        unsigned char* const codes = keeps ? m_decoding.rows->row(y0) : m_scratch.data();
+        if (!read_image_rows(*m_file, spec, level, y0, y1, spec.format, codes))
+            return reading_error();
+        to_floats(spec.format, codes, values, rows);
+        if (keeps && (m_decoding.next = y1) == spec.height) {
+            m_offered = std::move(m_decoding.rows);
+            DecodedRows::offer(decoded_key(subimage), m_offered);
+        }
+        return {};
     }
 
     const std::string& name() const override { return m_name; }
@@ -85,8 +128,46 @@ public:
     const std::vector<std::string>& notes() const override { return m_file->reading_notes(); }
 
 private:
+    struct Pass {
+        int subimage = 0, next = 0; ///< row
+        std::shared_ptr<DecodedRows> rows;
+    };
+
+    static bool holds_codes(const OIIO::ImageSpec& spec)
+    {
+        return spec.channelformats.empty() && are_codes(spec.format);
+    }
+    static std::size_t row_values(const OIIO::ImageSpec& spec)
+    {
+        return std::size_t(spec.width) * std::size_t(spec.nchannels);
+    }
+    std::string decoded_key(int subimage) const { return m_key + "\n" + std::to_string(subimage); }
+
+    Error reading_error() const
+    {
+        const std::string reason = m_file->geterror();
+        return Error{ reason.empty() ? m_name + ": cannot be read" : reason };
+    }
+
+    /// Whether the rows from y0 on are in `m_taken`.
+    bool take_decoded(const Level& level, int y0)
+    {
+        if (level.miplevel != 0 || m_decoding.rows)
+            return false;
+        if (m_taken.rows && (m_taken.subimage != level.subimage || !m_taken.rows->holds(y0)))
+            m_taken = {};
+        if (!m_taken.rows)
+            m_taken = { level.subimage, 0, DecodedRows::take(decoded_key(level.subimage)) };
+        return m_taken.rows && m_taken.rows->holds(y0);
+    }
+
     std::unique_ptr<ImageFile> m_file;
     std::string m_path, m_name, m_key;
+    Pass m_decoding; ///< of a first pass: what it has decoded so far
+    std::shared_ptr<DecodedRows>
+        m_offered; ///< by a first pass: stays until this source goes, or its reader has read it
+    Pass m_taken;  ///< of a second pass
+    std::vector<unsigned char> m_scratch;
 };
 
 } // namespace

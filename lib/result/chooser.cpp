@@ -107,6 +107,7 @@ Expected<ChoicePtr> Chooser::select_new(PixelSource& source, int subimage, const
         choice->parameters = *m_recipe.parameters;
         return ChoicePtr(choice);
     }
+    source.expect_second_pass(subimage);
     PhotoReader photo(source, subimage, 0, stored, converter, threads);
     const auto thumbnail = photo.thumbnail();
     if (!thumbnail)
