@@ -16,7 +16,8 @@ TEST_CASE("memory that came back is used again, and what is held is not")
     CHECK(second.get() != place);
     auto copy = first;
     first.reset();
-    CHECK(memory.floats(1000).get() != place);
+    const auto third = memory.floats(1000);
+    CHECK(third.get() != place);
     copy.reset();
     auto again = memory.floats(900); // of nearly the size
     CHECK(again.get() == place);

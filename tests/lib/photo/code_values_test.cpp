@@ -26,6 +26,6 @@ TEST_CASE("integers of 8 and 16 bits become OpenImageIO's floats, to the bit")
 {
     check_all<std::uint8_t>(OIIO::TypeUInt8);
     check_all<std::uint16_t>(OIIO::TypeUInt16);
-    for (const OIIO::TypeDesc other : { OIIO::TypeFloat, OIIO::TypeHalf, OIIO::TypeInt16, OIIO::TypeUInt32 })
+    for (const OIIO::TypeDesc& other : { OIIO::TypeFloat, OIIO::TypeHalf, OIIO::TypeInt16, OIIO::TypeUInt32 })
         CHECK(!are_codes(other));
 }
