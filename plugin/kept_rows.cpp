@@ -7,6 +7,8 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include "photo/code_values.h"
+
 namespace srisp::plugin {
 
 namespace {
@@ -16,46 +18,19 @@ bool same_bits(float a, float b)
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// The codes of an integer type, and the floats that OpenImageIO makes of them.
-template<class Code> class Codes {
-public:
-    Codes() : m_values(kCount)
-    {
-        std::vector<Code> codes(kCount);
-        for (std::size_t i = 0; i < kCount; ++i)
-            codes[i] = static_cast<Code>(i);
-        const OIIO::TypeDesc type = sizeof(Code) == 1 ? OIIO::TypeUInt8 : OIIO::TypeUInt16;
-        OIIO::convert_pixel_values(type, codes.data(), OIIO::TypeFloat, m_values.data(), kCount);
-    }
-
-    /// False: some value is none of them.
-    bool pack(const float* values, std::size_t count, Code* codes) const
-    {
-        for (std::size_t i = 0; i < count; ++i) {
-            if (!(values[i] >= 0 && values[i] <= 1))
-                return false;
-            const auto code = static_cast<Code>(values[i] * float(kCount - 1) + 0.5f);
-            if (!same_bits(m_values[code], values[i]))
-                return false;
-            codes[i] = code;
-        }
-        return true;
-    }
-    void unpack(const Code* codes, std::size_t count, float* values) const
-    {
-        for (std::size_t i = 0; i < count; ++i)
-            values[i] = m_values[codes[i]];
-    }
-
-private:
-    static constexpr std::size_t kCount = std::size_t(1) << (8 * sizeof(Code));
-    std::vector<float> m_values;
-};
-
-template<class Code> const Codes<Code>& all_codes()
+/// False: some value is none of those that the codes of an integer type stand for.
+template<class Code> bool pack_codes(const float* values, std::size_t count, Code* codes)
 {
-    static const Codes<Code>& codes = *new Codes<Code>;
-    return codes;
+    const float* const value_of = code_values<Code>();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!(values[i] >= 0 && values[i] <= 1))
+            return false;
+        const auto code = static_cast<Code>(values[i] * float(kCodeCount<Code> - 1) + 0.5f);
+        if (!same_bits(value_of[code], values[i]))
+            return false;
+        codes[i] = code;
+    }
+    return true;
 }
 
 void unpack_halves(const unsigned char* halves, std::size_t count, float* values)
@@ -95,9 +70,9 @@ void KeptRows::put(std::size_t row, const float* values)
         std::unique_ptr<unsigned char[]> bytes(new unsigned char[bytes_of(type)]);
         bool packed = true;
         if (type == Type::bits8)
-            packed = all_codes<std::uint8_t>().pack(values, m_row_values, bytes.get());
+            packed = pack_codes<std::uint8_t>(values, m_row_values, bytes.get());
         else if (type == Type::bits16)
-            packed = all_codes<std::uint16_t>().pack(values, m_row_values, as<std::uint16_t>(bytes.get()));
+            packed = pack_codes(values, m_row_values, as<std::uint16_t>(bytes.get()));
         else if (type == Type::half)
             packed = pack_halves(values, m_row_values, bytes.get());
         else
@@ -137,10 +112,10 @@ void KeptRows::get(std::size_t row, float* values) const
         std::fill_n(values, m_row_values, 0.0f);
         break;
     case Type::bits8:
-        all_codes<std::uint8_t>().unpack(bytes, m_row_values, values);
+        codes_to_floats<std::uint8_t>(bytes, m_row_values, values);
         break;
     case Type::bits16:
-        all_codes<std::uint16_t>().unpack(as<std::uint16_t>(bytes), m_row_values, values);
+        codes_to_floats(as<std::uint16_t>(bytes), m_row_values, values);
         break;
     case Type::half:
         unpack_halves(bytes, m_row_values, values);

@@ -103,6 +103,7 @@ ColorTransformPtr linear_matrix(const Matrix3& to_linear_srgb)
 bool is_identity(const ColorTransform& transform, int channels)
 {
     constexpr int kSteps = 16;
+    constexpr float kMost = 0.75f / 255;
     std::vector<float> grid;
     for (int r = 0; r <= kSteps; ++r)
         for (int g = 0; g <= (channels == 1 ? 0 : kSteps); ++g)
@@ -112,7 +113,7 @@ bool is_identity(const ColorTransform& transform, int channels)
     std::vector<float> moved = grid;
     transform.apply(moved.data(), static_cast<std::int64_t>(moved.size() / 3));
     for (std::size_t i = 0; i < grid.size(); ++i)
-        if (std::fabs(moved[i] - grid[i]) > 0.5f / 255)
+        if (std::fabs(moved[i] - grid[i]) > kMost)
             return false;
     return true;
 }

@@ -60,7 +60,8 @@ ColorTransformPtr curves_and_matrix(std::array<CurveTable, 3> to_linear, const M
 /// Linear light of any size, then a matrix to linear sRGB.
 ColorTransformPtr linear_matrix(const Matrix3& to_linear_srgb);
 
-/// Whether no colour moves by half an 8-bit step. `channels`: of colour in the image, 1 or 3.
+/// Whether no colour moves by three quarters of an 8-bit step: the commonest sRGB profile (Hewlett-Packard's of 1998,
+/// whose numbers are rounded) moves pure green by 0.51. `channels`: of colour in the image, 1 or 3.
 bool is_identity(const ColorTransform& transform, int channels);
 
 } // namespace srisp

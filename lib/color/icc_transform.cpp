@@ -6,6 +6,7 @@
 
 #include <lcms2.h>
 
+#include "base/recently_kept.h"
 #include "color/icc_header.h"
 
 namespace srisp {
@@ -103,9 +104,7 @@ ColorTransformPtr matrix_transform(cmsHPROFILE profile, cmsHPROFILE srgb)
     return curves_and_matrix({ table(0), table(1), table(2) }, product(inverse(srgb_to_xyz), to_xyz));
 }
 
-} // namespace
-
-Expected<ColorTransformPtr> color_transform_from_icc(const void* data, std::size_t size, int channels)
+Expected<ColorTransformPtr> make_transform(const void* data, std::size_t size, int channels)
 {
     const auto header = read_icc_header(data, size);
     if (!header)
@@ -143,6 +142,25 @@ Expected<ColorTransformPtr> color_transform_from_icc(const void* data, std::size
     if (is_identity(*result, channels))
         result.reset();
     return result;
+}
+
+} // namespace
+
+Expected<ColorTransformPtr> color_transform_from_icc(const void* profile, std::size_t size, int channels)
+{
+    // The tables of a profile take longer than a small photo. Few cameras and programs write most of them.
+    constexpr std::size_t kMostKept = 16, kMostBytes = 16 << 10;
+    using Kept = std::shared_ptr<const ColorTransformPtr>;
+    if (size > kMostBytes)
+        return make_transform(profile, size, channels);
+    // Never destroyed: other threads may still read while statics end.
+    static auto& kept = *new RecentlyKept<Kept>(kMostKept);
+    const std::string key = std::to_string(channels) + std::string(static_cast<const char*>(profile), size);
+    const auto found = kept.get(key, [&]() -> Expected<Kept> {
+        auto made = make_transform(profile, size, channels);
+        return made ? Expected<Kept>(std::make_shared<const ColorTransformPtr>(std::move(*made))) : made.error();
+    });
+    return found ? Expected<ColorTransformPtr>(**found) : found.error();
 }
 
 } // namespace srisp

@@ -10,7 +10,7 @@
 namespace srisp {
 
 /// The transform of an embedded ICC profile to display-encoded sRGB, relative colorimetric; null where the profile is
-/// sRGB itself (no colour moves by half an 8-bit step). `channels`: colour channels of the image, 1 or 3. Errors:
+/// sRGB itself (is_identity). `channels`: colour channels of the image, 1 or 3. Errors:
 /// damaged, or its colour space does not fit the image (CMYK, Lab, …).
 Expected<ColorTransformPtr> color_transform_from_icc(const void* profile, std::size_t size, int channels);
 

@@ -8,6 +8,7 @@
 
 #include "color/color_reading.h"
 #include "container/file_description.h"
+#include "photo/code_values.h"
 #include "photo/color_channels.h"
 #include "record/record.h"
 
@@ -108,6 +109,7 @@ struct PhotoConverter::State {
     ColorChannels channels;
     int stored_channels = 0;
     bool straight = false; ///< stored colour is not multiplied by alpha
+    bool integers = false; ///< from 0 to 1 as floats
     ColorTransformPtr transform;
     OIIO::ImageSpec output_spec;
     std::vector<std::string> notes;
@@ -165,6 +167,7 @@ Expected<PhotoConverter> PhotoConverter::create(const OIIO::ImageSpec& spec, Inp
     state->notes.insert(state->notes.end(), reading.notes.begin(), reading.notes.end());
     state->channels = *channels;
     state->stored_channels = spec.nchannels;
+    state->integers = spec.channelformats.empty() && are_codes(spec.format);
     state->straight = spec.get_int_attribute("oiio:UnassociatedAlpha") != 0;
     state->output_spec = make_output_spec(spec, *channels);
     return PhotoConverter(std::move(state));
@@ -179,6 +182,11 @@ const std::vector<std::string>& PhotoConverter::notes() const
     return m_state->notes;
 }
 
+bool PhotoConverter::is_rgb_alone() const
+{
+    return m_state->is_plain_rgb() && m_state->channels.alpha < 0;
+}
+
 void PhotoConverter::to_rgb(const float* stored, std::int64_t pixels, float* rgb, PhotoCounts& counts) const
 {
     const State& state = *m_state;
@@ -188,7 +196,10 @@ void PhotoConverter::to_rgb(const float* stored, std::int64_t pixels, float* rgb
         picked = rgb;
     }
     const bool unbounded = state.transform && state.transform->takes_unbounded();
-    (unbounded ? make_finite : bound_values)(picked, pixels * 3, rgb, counts);
+    if (picked == rgb && state.is_plain_rgb() && state.integers)
+        counts.values += pixels * 3; // in bounds as they are
+    else
+        (unbounded ? make_finite : bound_values)(picked, pixels * 3, rgb, counts);
     if (state.transform)
         counts.clipped += state.transform->apply(rgb, pixels);
 }

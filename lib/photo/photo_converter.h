@@ -43,7 +43,11 @@ public:
     /// no longer hold).
     const OIIO::ImageSpec& output_spec() const;
 
+    /// Whether pixels are stored as R, G and B and nothing else: `from_rgb` changes nothing then.
+    bool is_rgb_alone() const;
+
     /// `stored`: `pixels` × spec.nchannels floats → `rgb`: `pixels` × 3, display-encoded, in [0,1]. Adds to `counts`.
+    /// Both may be the same memory where pixels are RGB alone.
     void to_rgb(const float* stored, std::int64_t pixels, float* rgb, PhotoCounts& counts) const;
 
     /// `rgb` (3 floats per pixel) and the `stored` pixels they came from → `out`, output_spec().nchannels floats per

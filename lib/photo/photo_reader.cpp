@@ -36,48 +36,74 @@ PhotoReader::PhotoReader(PixelSource& source, int subimage, int miplevel, const 
     m_band_rows = rows_in_tiles(std::max(kBandPixels / std::max(m_width, 1), 1), spec);
 }
 
-Expected<PhotoReader::StoredRows> PhotoReader::stored_rows(int y0, int y1)
+std::shared_ptr<PhotoRows> PhotoReader::make_room(int y0, int y1)
 {
-    const StoredRows last = m_last;
-    const int last_y0 = m_last_y0, last_y1 = m_last_y1;
-    const std::size_t row = std::size_t(m_width) * m_channels;
-    const auto values = std::make_shared<std::vector<float>>(row * (y1 - y0));
-    int first = y0;
-    if (last_y0 <= y0 && y0 < last_y1) {
-        first = std::min(last_y1, y1);
-        std::copy_n(last->data() + row * (y0 - last_y0), row * (first - y0), values->data());
-    }
-    if (first < y1)
-        if (const Status read =
-                m_source.read_rows(m_subimage, m_miplevel, first, y1, values->data() + row * (first - y0));
-            !read)
-            return read.error();
-    m_last = values;
-    m_last_y0 = y0;
-    m_last_y1 = y1;
-    return StoredRows(values);
+    const std::size_t pixels = std::size_t(y1 - y0) * std::size_t(m_width);
+    const bool has_gain_map = m_subimage == 0 && m_miplevel == 0 && m_source.gain_map();
+    auto rows = std::make_shared<PhotoRows>();
+    rows->width = m_width;
+    rows->y0 = y0;
+    rows->y1 = y1;
+    rows->rgb = m_memory.floats(pixels * 3);
+    if (!m_converter.is_rgb_alone())
+        rows->stored = m_memory.floats(pixels * std::size_t(m_channels));
+    if (has_gain_map)
+        rows->headroom = m_memory.floats(pixels);
+    rows->row_counts.resize(std::size_t(y1 - y0));
+    return rows;
 }
 
-Expected<PhotoRows> PhotoReader::rows(int y0, int y1)
+/// Of rows y0 ≤ y < y1 of two sets, so many floats each.
+static void copy_rows(const PhotoRows& from, const PhotoRows& to, int y0, int y1,
+                      std::shared_ptr<float[]> PhotoRows::*plane, std::size_t row)
 {
-    const auto stored = stored_rows(y0, y1);
-    if (!stored)
-        return stored.error();
-    const std::size_t count = std::size_t(y1 - y0), row = std::size_t(m_width);
-    const GainMap* const gain_map = m_subimage == 0 && m_miplevel == 0 ? m_source.gain_map() : nullptr;
-    PhotoRows rows{
-        m_width, y0, y1, *stored, std::vector<float>(count * row * 3), {}, std::vector<PhotoCounts>(count)
-    };
-    if (gain_map)
-        rows.headroom.resize(count * row);
-    const auto convert = [&](std::int64_t y) {
-        float* const rgb = rows.rgb.data() + y * row * 3;
-        m_converter.to_rgb(rows.stored->data() + y * row * m_channels, m_width, rgb, rows.row_counts[y]);
-        if (gain_map)
-            apply_gain_map(*gain_map, y0 + static_cast<int>(y), m_width, rgb, rows.headroom.data() + y * row);
-    };
-    parallel_tasks(y1 - y0, m_threads, convert);
-    return rows;
+    if ((to.*plane))
+        std::copy_n((from.*plane).get() + row * std::size_t(y0 - from.y0), row * std::size_t(y1 - y0),
+                    (to.*plane).get() + row * std::size_t(y0 - to.y0));
+}
+
+/// The rows from `first` on.
+Status PhotoReader::read_and_convert(PhotoRows& rows, int first)
+{
+    const std::size_t width = std::size_t(m_width), skipped = width * std::size_t(first - rows.y0);
+    float* const stored =
+        rows.stored ? rows.stored.get() + skipped * std::size_t(m_channels) : rows.rgb.get() + skipped * 3;
+    if (const Status read = m_source.read_rows(m_subimage, m_miplevel, first, rows.y1, stored); !read)
+        return read;
+    parallel_tasks(rows.y1 - first, m_threads, [&](std::int64_t row) {
+        const int y = first + static_cast<int>(row);
+        const std::size_t pixel = width * std::size_t(y - rows.y0);
+        float* const rgb = rows.rgb.get() + pixel * 3;
+        const float* const in = rows.stored ? rows.stored.get() + pixel * std::size_t(m_channels) : rgb;
+        m_converter.to_rgb(in, m_width, rgb, rows.row_counts[std::size_t(y - rows.y0)]);
+        if (rows.headroom)
+            apply_gain_map(*m_source.gain_map(), y, m_width, rgb, rows.headroom.get() + pixel);
+    });
+    return {};
+}
+
+Expected<std::shared_ptr<const PhotoRows>> PhotoReader::rows(int y0, int y1)
+{
+    auto last = m_last;
+    const bool overlap = last && last->y0 <= y0 && y0 < last->y1;
+    if (!overlap) { // its memory serves again
+        last.reset();
+        m_last.reset();
+    }
+    const auto rows = make_room(y0, y1);
+    const int first = overlap ? std::min(last->y1, y1) : y0;
+    if (overlap) {
+        const std::size_t width = std::size_t(m_width);
+        copy_rows(*last, *rows, y0, first, &PhotoRows::rgb, width * 3);
+        copy_rows(*last, *rows, y0, first, &PhotoRows::stored, width * std::size_t(m_channels));
+        copy_rows(*last, *rows, y0, first, &PhotoRows::headroom, width);
+        std::copy_n(last->row_counts.begin() + (y0 - last->y0), first - y0, rows->row_counts.begin());
+    }
+    if (first < y1)
+        if (const Status read = read_and_convert(*rows, first); !read)
+            return read.error();
+    m_last = rows;
+    return std::shared_ptr<const PhotoRows>(rows);
 }
 
 Status PhotoReader::read_all(const std::function<Status(ImageView rows, int y0)>& use)
@@ -86,8 +112,8 @@ Status PhotoReader::read_all(const std::function<Status(ImageView rows, int y0)>
         const auto read = rows(y, std::min(y + m_band_rows, m_height));
         if (!read)
             return read.error();
-        m_counts += read->counts(read->y0, read->y1);
-        if (Status used = use(read->view(), y); !used)
+        m_counts += (*read)->counts((*read)->y0, (*read)->y1);
+        if (Status used = use((*read)->view(), y); !used)
             return used;
     }
     return {};

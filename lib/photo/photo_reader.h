@@ -7,6 +7,7 @@
 
 #include <srisp/image.h>
 
+#include "base/spare_memory.h"
 #include "photo/photo_converter.h"
 #include "photo/pixel_source.h"
 
@@ -15,12 +16,12 @@ namespace srisp {
 /// Some rows of one level: all channels as stored, and as display-encoded RGB in [0,1].
 struct PhotoRows {
     int width, y0, y1;
-    std::shared_ptr<const std::vector<float>> stored; ///< of these rows and no others
-    std::vector<float> rgb;
-    std::vector<float> headroom; ///< of each pixel: how much brighter its light is than `rgb` says; empty: nowhere
+    std::shared_ptr<float[]> rgb;
+    std::shared_ptr<float[]> stored;   ///< null: they are RGB alone, and no result needs them
+    std::shared_ptr<float[]> headroom; ///< of each pixel: how much brighter its light is than `rgb` says; null: nowhere
     std::vector<PhotoCounts> row_counts; ///< what conversion changed in each row
 
-    ImageView view() const { return { rgb.data(), width, y1 - y0, 3, std::ptrdiff_t(3) * width }; }
+    ImageView view() const { return { rgb.get(), width, y1 - y0, 3, std::ptrdiff_t(3) * width }; }
     /// What conversion changed in rows first ≤ y < last.
     PhotoCounts counts(int first, int last) const;
 };
@@ -37,7 +38,7 @@ public:
                 const PhotoConverter& converter, int threads);
 
     /// Rows y0 ≤ y < y1 of the data window.
-    Expected<PhotoRows> rows(int y0, int y1);
+    Expected<std::shared_ptr<const PhotoRows>> rows(int y0, int y1);
 
     /// Calls use(rows, y0) for all rows once, from top to bottom, some megabytes at a time; its error ends the pass.
     Status read_all(const std::function<Status(ImageView rows, int y0)>& use);
@@ -47,14 +48,14 @@ public:
     const PhotoCounts& counts() const { return m_counts; }
 
 private:
-    using StoredRows = std::shared_ptr<const std::vector<float>>;
-    Expected<StoredRows> stored_rows(int y0, int y1);
+    std::shared_ptr<PhotoRows> make_room(int y0, int y1);
+    Status read_and_convert(PhotoRows& rows, int first);
 
     PixelSource& m_source;
     const PhotoConverter& m_converter;
     int m_subimage, m_miplevel, m_width, m_height, m_channels, m_orientation, m_band_rows, m_threads;
-    int m_last_y0 = 0, m_last_y1 = 0;
-    StoredRows m_last; ///< the rows that were read last
+    SpareMemory m_memory;
+    std::shared_ptr<const PhotoRows> m_last; ///< the rows that were read last
     PhotoCounts m_counts;
 };
 

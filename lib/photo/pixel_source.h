@@ -23,6 +23,9 @@ public:
     virtual std::optional<OIIO::ImageSpec> find_level(int subimage, int miplevel) = 0;
     /// Rows y0 ≤ y < y1 of the data window (the first is 0), all channels as float.
     virtual Status read_rows(int subimage, int miplevel, int y0, int y1, float* rows) = 0;
+    /// The next pass over the rows of a subimage, from top to bottom, is for its thumbnail; by this source or another
+    /// one of the same pixels there may be a second pass, for the result.
+    virtual void expect_second_pass(int) {}
 
     /// What this is called in messages.
     virtual const std::string& name() const = 0;

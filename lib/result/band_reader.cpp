@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "base/parallel.h"
 #include "container/image_limits.h"
 #include "photo/headroom.h"
 
@@ -11,15 +12,18 @@ namespace srisp {
 
 namespace {
 
-constexpr int kBandRows = 256;
-constexpr int kLeastBandRows = 32;
-constexpr int kBandPixels = 2 << 20; // 24 MB of RGB
 constexpr std::size_t kBandsKept = 2;
 
-/// Rows of one band: as many as a few megabytes hold, and whole tiles.
-int band_rows(const OIIO::ImageSpec& spec)
+/// Rows of one band, in whole tiles. Where neighbours count, some rows above and below each band are computed twice, so
+/// it has as many as a few megabytes hold; elsewhere as many as the caches hold from one step to the next.
+int band_rows(const OIIO::ImageSpec& spec, int halo)
 {
-    const int rows = std::clamp(kBandPixels / std::max(spec.width, 1), kLeastBandRows, kBandRows);
+    struct Limits {
+        int least_rows, most_rows, pixels;
+    };
+    constexpr Limits kAlone{ 16, 1 << 12, 3 << 17 }, kWithNeighbours{ 32, 256, 2 << 20 };
+    const Limits& limits = halo > 0 ? kWithNeighbours : kAlone;
+    const int rows = std::clamp(limits.pixels / std::max(spec.width, 1), limits.least_rows, limits.most_rows);
     return rows_in_tiles(rows, spec);
 }
 
@@ -27,55 +31,102 @@ int band_rows(const OIIO::ImageSpec& spec)
 
 BandReader::BandReader(PixelSource& source, int subimage, int miplevel, const OIIO::ImageSpec& stored,
                        BandSettings settings)
-    : m_source(source), m_width(stored.width), m_height(stored.height), m_stored_channels(stored.nchannels),
-      m_channels(settings.converter->output_spec().nchannels), m_band_rows(band_rows(stored)),
-      m_settings(std::move(settings)),
+    : m_source(source), m_settings(std::move(settings)), m_width(stored.width), m_height(stored.height),
+      m_stored_channels(stored.nchannels), m_channels(m_settings.converter->output_spec().nchannels),
+      m_band_rows(band_rows(stored, m_settings.applier->halo())),
       m_reader(source, subimage, miplevel, stored, *m_settings.converter, m_settings.threads),
       m_done(std::size_t((stored.height - 1) / m_band_rows + 1)), m_progress(m_settings.progress)
 {
 }
 
+int BandReader::end_of(int band) const
+{
+    return std::min((band + 1) * m_band_rows, m_height);
+}
+
 Status BandReader::read(int x0, int x1, int y0, int y1, float* out, std::size_t row_stride)
 {
     for (int y = y0; y < y1;) {
-        const int index = y / m_band_rows;
+        const int index = y / m_band_rows, first = index * m_band_rows;
+        const int end = std::min(end_of(index), y1);
+        const bool whole = x0 == 0 && x1 == m_width && y == first && end == end_of(index);
+        if (whole && !kept(index)) {
+            if (const Status computed = compute(index, { out, row_stride }); !computed)
+                return computed;
+            out += row_stride * std::size_t(end - y);
+            y = end;
+            continue;
+        }
         const auto found = band(index);
         if (!found)
             return found.error();
-        const int end = std::min((index + 1) * m_band_rows, y1);
+        const float* const values = (*found)->values.get();
         for (; y < end; ++y, out += row_stride) {
-            const std::size_t pixel = std::size_t(y - index * m_band_rows) * m_width;
-            std::copy((*found)->values.data() + (pixel + x0) * m_channels,
-                      (*found)->values.data() + (pixel + x1) * m_channels, out);
+            const std::size_t pixel = std::size_t(y - first) * m_width;
+            std::copy(values + (pixel + x0) * m_channels, values + (pixel + x1) * m_channels, out);
         }
     }
     return {};
 }
 
-Expected<std::shared_ptr<const BandReader::Band>> BandReader::band(int index)
+std::shared_ptr<const BandReader::Band> BandReader::kept(int index) const
 {
-    for (const auto& kept : m_last)
-        if (kept->index == index)
-            return kept;
-    auto computed = compute(index);
-    if (!computed)
-        return computed;
-    m_last.insert(m_last.begin(), *computed);
-    m_last.resize(std::min(m_last.size(), kBandsKept));
-    return computed;
+    for (const auto& band : m_last)
+        if (band->index == index)
+            return band;
+    return nullptr;
 }
 
-Expected<std::shared_ptr<const BandReader::Band>> BandReader::compute(int index)
+Expected<std::shared_ptr<const BandReader::Band>> BandReader::band(int index)
 {
-    const int y0 = index * m_band_rows, y1 = std::min(y0 + m_band_rows, m_height);
+    if (auto found = kept(index))
+        return found;
+    const std::size_t row = std::size_t(m_width) * m_channels;
+    m_last.resize(std::min(m_last.size(), kBandsKept - 1)); // memory of the last one serves again
+    const auto made =
+        std::make_shared<Band>(Band{ index, m_memory.floats(row * (end_of(index) - index * m_band_rows)) });
+    if (const Status computed = compute(index, { made->values.get(), row }); !computed)
+        return computed.error();
+    m_last.insert(m_last.begin(), made);
+    return std::shared_ptr<const Band>(made);
+}
+
+Status BandReader::compute(int index, Target target)
+{
+    const int y0 = index * m_band_rows, y1 = end_of(index);
     const int halo = m_settings.applier->halo();
-    const int first = std::max(y0 - halo, 0), last = std::min(y1 + halo, m_height);
-    const auto rows = m_reader.rows(first, last);
-    if (!rows)
-        return rows.error();
-    const ImagePart source{ rows->view(), 0, first, m_width, m_height };
-    const std::ptrdiff_t stride = source.pixels.y_stride;
-    std::vector<float> result(std::size_t(stride) * (y1 - y0));
+    const auto read = m_reader.rows(std::max(y0 - halo, 0), std::min(y1 + halo, m_height));
+    if (!read)
+        return read.error();
+    const PhotoRows& rows = **read;
+    const Roi roi{ 0, m_width, y0, y1 };
+    if (!rows.stored) {
+        if (const Status applied = apply(rows, roi, target); !applied)
+            return applied;
+    } else {
+        const std::size_t row = std::size_t(m_width) * 3;
+        const auto rgb = m_memory.floats(row * std::size_t(y1 - y0));
+        if (const Status applied = apply(rows, roi, { rgb.get(), row }); !applied)
+            return applied;
+        parallel_tasks(y1 - y0, m_settings.threads, [&](std::int64_t y) {
+            const std::size_t stored = std::size_t(m_width) * std::size_t(m_stored_channels);
+            m_settings.converter->from_rgb(rgb.get() + row * y, rows.stored.get() + stored * (y0 - rows.y0 + y),
+                                           m_width, m_settings.associate, target.values + target.row_stride * y);
+        });
+    }
+    if (!m_done[index]) {
+        m_done[index] = true;
+        ++m_bands_done;
+        m_counts += rows.counts(y0, y1);
+    }
+    if (complete())
+        m_progress.wipe();
+    return {};
+}
+
+/// The model, and what is brighter than the photo says; three channels.
+Status BandReader::apply(const PhotoRows& rows, Roi roi, Target rgb)
+{
     ApplyOptions options;
     options.threads = m_settings.threads;
     options.progress = [&](float part) {
@@ -86,28 +137,17 @@ Expected<std::shared_ptr<const BandReader::Band>> BandReader::compute(int index)
         });
         return true;
     };
-    const Status applied = m_settings.applier->run(source, Roi{ 0, m_width, y0, y1 },
-                                                   { result.data(), m_width, y1 - y0, 3, stride }, options);
+    const int height = roi.y1 - roi.y0;
+    const Status applied =
+        m_settings.applier->run({ rows.view(), 0, rows.y0, m_width, m_height }, roi,
+                                { rgb.values, m_width, height, 3, std::ptrdiff_t(rgb.row_stride) }, options);
     if (!applied)
         return Error{ m_source.name() + ": " + applied.error().message };
-
-    if (!rows->headroom.empty())
-        add_headroom(rows->headroom.data() + std::size_t(m_width) * (y0 - first), std::int64_t(m_width) * (y1 - y0),
-                     result.data());
-
-    auto computed = std::make_shared<Band>(Band{ index, {} });
-    computed->values.resize(std::size_t(m_width) * (y1 - y0) * m_channels);
-    const float* const stored = rows->stored->data() + std::size_t(m_width) * m_stored_channels * (y0 - first);
-    m_settings.converter->from_rgb(result.data(), stored, std::int64_t(m_width) * (y1 - y0), m_settings.associate,
-                                   computed->values.data());
-    if (!m_done[index]) {
-        m_done[index] = true;
-        ++m_bands_done;
-        m_counts += rows->counts(y0, y1);
-    }
-    if (complete())
-        m_progress.wipe();
-    return std::shared_ptr<const Band>(computed);
+    if (rows.headroom)
+        for (int y = 0; y < height; ++y)
+            add_headroom(rows.headroom.get() + std::size_t(m_width) * (roi.y0 - rows.y0 + y), m_width,
+                         rgb.values + rgb.row_stride * y);
+    return {};
 }
 
 } // namespace srisp

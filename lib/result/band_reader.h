@@ -20,9 +20,10 @@ struct BandSettings {
     int threads = 0;       ///< as ApplyOptions
 };
 
-/// Computes the result of one level band by band, in the order in which rows are asked for, and keeps the last bands:
-/// the image as a whole is never in memory. Not for use by several threads at a time, but a call may be made within a
-/// call (a thread that waits for others may be given the host's next request).
+/// Computes the result of one level band by band, in the order in which rows are asked for: the image as a whole is
+/// never in memory. A band of which all is asked for goes straight to its place; of others the last are kept. Not for
+/// use by several threads at a time, but a call may be made within a call (a thread that waits for others may be given
+/// the host's next request).
 class BandReader {
 public:
     BandReader(PixelSource& source, int subimage, int miplevel, const OIIO::ImageSpec& stored, BandSettings settings);
@@ -36,18 +37,27 @@ public:
     bool complete() const { return m_bands_done == m_done.size(); }
 
 private:
+    /// Where rows of the result go, all channels.
+    struct Target {
+        float* values;
+        std::size_t row_stride;
+    };
     struct Band {
         int index;
-        std::vector<float> values;
+        std::shared_ptr<float[]> values;
     };
 
+    int end_of(int band) const;
+    std::shared_ptr<const Band> kept(int index) const;
     Expected<std::shared_ptr<const Band>> band(int index);
-    Expected<std::shared_ptr<const Band>> compute(int index);
+    Status compute(int index, Target target);
+    Status apply(const PhotoRows& rows, Roi roi, Target rgb);
 
     PixelSource& m_source;
-    int m_width, m_height, m_stored_channels, m_channels, m_band_rows;
     BandSettings m_settings;
+    int m_width, m_height, m_stored_channels, m_channels, m_band_rows;
     PhotoReader m_reader;
+    SpareMemory m_memory;
     std::vector<std::shared_ptr<const Band>> m_last; ///< newest first
     std::vector<bool> m_done;
     std::size_t m_bands_done = 0;

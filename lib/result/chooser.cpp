@@ -142,6 +142,7 @@ Expected<ChoicePtr> Chooser::select_new(PixelSource& source, int subimage, const
     const auto features = prepared(**reference);
     if (!features)
         return Error{ source.name() + ": " + features.error().message };
+    source.expect_second_pass(subimage);
     PhotoReader photo(source, subimage, 0, stored, converter, threads);
     const auto thumbnail = photo.thumbnail();
     if (!thumbnail)

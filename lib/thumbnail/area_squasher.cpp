@@ -24,35 +24,64 @@ AxisCoverage axis_coverage(int count, int cells)
     return coverage;
 }
 
+/// The shares in order of the cells.
+static std::vector<AxisCoverage::Share> by_cell(std::vector<AxisCoverage::Share> shares)
+{
+    std::stable_sort(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.cell < b.cell; });
+    return shares;
+}
+
 AreaSquasher::AreaSquasher(int width, int height, int size)
-    : m_width(width), m_height(height), m_size(size), m_columns(axis_coverage(width, size)),
-      m_rows(axis_coverage(height, size)), m_line(std::size_t(size) * 3), m_sums(std::size_t(size) * size * 3)
+    : m_width(width), m_height(height), m_size(size), m_columns(by_cell(axis_coverage(width, size).shares)),
+      m_rows(axis_coverage(height, size)), m_lines(std::size_t(size) * 3 * kRowsAtOnce),
+      m_sums(std::size_t(size) * size * 3)
 {
 }
 
-/// Adds the shares of one row of pixels to the cells of `line`.
-static void squash_row(const AxisCoverage& columns, const float* pixel, std::ptrdiff_t x_stride,
-                       std::vector<double>& line)
+/// Adds up the shares of `Rows` rows of pixels, one below the other, for each cell of as many lines. Each cell's sum
+/// stays in registers, and those of several rows do not wait for each other.
+template<int Rows> static void squash_rows(const std::vector<AxisCoverage::Share>& columns, const float* pixel,
+                                           std::ptrdiff_t x_stride, std::ptrdiff_t y_stride, double* lines,
+                                           std::size_t line)
 {
-    std::fill(line.begin(), line.end(), 0.0);
-    for (const AxisCoverage::Share& share : columns.shares) {
-        const float* v = pixel + share.input * x_stride;
-        double* cell = line.data() + share.cell * 3;
-        for (int c = 0; c < 3; ++c)
-            cell[c] += share.length * v[c];
+    for (auto share = columns.begin(); share != columns.end();) {
+        double sums[Rows][3] = {};
+        const int cell = share->cell;
+        for (; share != columns.end() && share->cell == cell; ++share)
+            for (int row = 0; row < Rows; ++row) {
+                const float* v = pixel + share->input * x_stride + row * y_stride;
+                for (int c = 0; c < 3; ++c)
+                    sums[row][c] += share->length * v[c];
+            }
+        for (int row = 0; row < Rows; ++row)
+            std::copy_n(sums[row], 3, lines + row * line + std::size_t(cell) * 3);
     }
+}
+
+void AreaSquasher::add_line(const double* line)
+{
+    const std::size_t values = std::size_t(m_size) * 3;
+    for (int i = m_rows.first_share[m_next_row]; i < m_rows.first_share[m_next_row + 1]; ++i) {
+        const AxisCoverage::Share& share = m_rows.shares[i];
+        double* sums = m_sums.data() + share.cell * values;
+        for (std::size_t k = 0; k < values; ++k)
+            sums[k] += share.length * line[k];
+    }
+    ++m_next_row;
 }
 
 void AreaSquasher::add_rows(ImageView rows)
 {
-    for (int y = 0; y < rows.height && m_next_row < m_height; ++y, ++m_next_row) {
-        squash_row(m_columns, rows.pixel(0, y), rows.x_stride, m_line);
-        for (int i = m_rows.first_share[m_next_row]; i < m_rows.first_share[m_next_row + 1]; ++i) {
-            const AxisCoverage::Share& share = m_rows.shares[i];
-            double* sums = m_sums.data() + share.cell * m_line.size();
-            for (std::size_t k = 0; k < m_line.size(); ++k)
-                sums[k] += share.length * m_line[k];
-        }
+    const std::size_t line = std::size_t(m_size) * 3;
+    const int count = std::min(rows.height, m_height - m_next_row);
+    for (int y = 0; y < count;) {
+        const bool several = count - y >= kRowsAtOnce;
+        const auto squash = several ? squash_rows<kRowsAtOnce> : squash_rows<1>;
+        squash(m_columns, rows.pixel(0, y), rows.x_stride, rows.y_stride, m_lines.data(), line);
+        const int done = several ? kRowsAtOnce : 1;
+        for (int row = 0; row < done; ++row)
+            add_line(m_lines.data() + std::size_t(row) * line);
+        y += done;
     }
 }
 

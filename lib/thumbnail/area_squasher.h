@@ -33,10 +33,14 @@ public:
     std::vector<float> finish(int orientation) const;
 
 private:
+    static constexpr int kRowsAtOnce = 4;
+    void add_line(const double* line);
+
     int m_width, m_height, m_size, m_next_row = 0;
-    AxisCoverage m_columns, m_rows;
-    std::vector<double> m_line; ///< one input row, squashed
-    std::vector<double> m_sums; ///< of shares, over the whole image
+    std::vector<AxisCoverage::Share> m_columns; ///< in order of the cells
+    AxisCoverage m_rows;
+    std::vector<double> m_lines; ///< some input rows, squashed
+    std::vector<double> m_sums;  ///< of shares, over the whole image
 };
 
 /// Turns a size × size image (interleaved RGB) upright: what an EXIF `orientation` (others than 1 … 8 are taken as 1)

@@ -28,6 +28,7 @@ struct BenchSettings {
 BenchLines bench_apply(const BenchSettings& settings);
 BenchLines bench_sizes(const BenchSettings& settings);
 BenchLines bench_select(const BenchSettings& settings);
+BenchLines bench_small_photos(const BenchSettings& settings);
 BenchLines bench_reference(const BenchSettings& settings);
 BenchLines bench_libraries(const BenchSettings& settings);
 BenchLines bench_ocio(const BenchSettings& settings);

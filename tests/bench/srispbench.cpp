@@ -17,9 +17,10 @@ struct Part {
 };
 
 constexpr Part kParts[] = { { "apply", bench_apply },         { "sizes", bench_sizes },
-                            { "select", bench_select },       { "reference", bench_reference },
-                            { "libraries", bench_libraries }, { "ocio", bench_ocio },
-                            { "raw_out", bench_raw_out },     { "commands", bench_commands } };
+                            { "select", bench_select },       { "small_photos", bench_small_photos },
+                            { "reference", bench_reference }, { "libraries", bench_libraries },
+                            { "ocio", bench_ocio },           { "raw_out", bench_raw_out },
+                            { "commands", bench_commands } };
 
 void print(const BenchLine& line)
 {
@@ -47,7 +48,7 @@ int main(int argc, char** argv)
     app.add_option("--threads", settings.threads, "0: all")->capture_default_str()->check(CLI::Range(0, 1024));
     app.add_option("--photo", settings.photo, "photo to work on; without one: a synthetic picture")
         ->check(CLI::ExistingFile);
-    app.add_option("--reference", settings.reference, "RAW file; without one, 'reference' and 'commands' are left out")
+    app.add_option("--reference", settings.reference, "RAW file; without one, parts that need it are left out")
         ->check(CLI::ExistingFile);
     app.add_flag("--json", json, "print one JSON object");
     try {

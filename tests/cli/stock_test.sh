@@ -43,6 +43,10 @@ both() {
 check "two installations on PATH do not call each other" both
 by_path() { PATH="$build/bin:$PATH" srisptool "$photo" --srisp-unprocess "$reference" -o x.exr; }
 check "called by PATH" by_path
+printf '#!/bin/sh\nexec 1>&2; env\n' >showing && chmod +x showing
+tunables() { says 0 "GLIBC_TUNABLES=$1" env GLIBC_TUNABLES="$2" SRISP_OIIOTOOL="$scratch/showing" "$tool" "$photo" --srisp-process; }
+check "huge pages are asked for" tunables glibc.malloc.hugetlb=1 ""
+check "beside what the user asks for" tunables glibc.malloc.hugetlb=1:glibc.malloc.check=0 glibc.malloc.check=0
 check "no stock oiiotool" says 1 "no stock oiiotool on PATH" \
     env PATH="$build/libexec/srisp" "$tool" "$photo" -o x.exr
 rm "prefix with space/lib/srisp/srisp.imageio.so"

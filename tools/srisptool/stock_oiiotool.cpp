@@ -205,6 +205,8 @@ int run_rewritten(const std::string& program, const std::vector<Step>& steps)
         write_file(folder.path() / file.name, json_text(file.content));
 
     std::vector<std::string> environment = environment_with_plugin(plugins);
+    // Large images in small pages cost more to get from the system than what oiiotool does to them.
+    set_variable(environment, "GLIBC_TUNABLES", "glibc.malloc.hugetlb=1", true);
     // Through a link, since LD_PRELOAD cannot name a path with spaces or colons.
     fs::create_symlink(plugins / "output_guard.so", folder.path() / kGuardLink);
     set_variable(environment, "LD_PRELOAD", (folder.path() / kGuardLink).string(), true);

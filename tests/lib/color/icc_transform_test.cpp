@@ -101,6 +101,45 @@ TEST_CASE("a profile that is sRGB itself is skipped")
     CHECK(*transform == nullptr);
 }
 
+TEST_CASE("the profile that most cameras write is sRGB, though its numbers are rounded; others are not")
+{
+    // Its pure green is more than half an 8-bit step away.
+    const auto with_green_at = [](double x) {
+        const cmsCIExyY white = { 0.3127, 0.3290, 1 };
+        const cmsCIExyYTRIPLE primaries = { { 0.64, 0.33, 1 }, { x, 0.60, 1 }, { 0.15, 0.06, 1 } };
+        double srgb[5] = { 2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045 };
+        cmsToneCurve* curve = cmsBuildParametricToneCurve(nullptr, 4, srgb);
+        cmsToneCurve* curves[3] = { curve, curve, curve };
+        const auto bytes = profile_bytes(cmsCreateRGBProfile(&white, &primaries, curves));
+        cmsFreeToneCurve(curve);
+        const auto transform = color_transform_from_icc(bytes.data(), bytes.size(), 3);
+        REQUIRE(transform);
+        return *transform;
+    };
+    CHECK(with_green_at(0.30) == nullptr);
+    CHECK(with_green_at(0.31) != nullptr);
+    SKIP_WITHOUT_SHARED("data/fullsize/canon_5d3_22mpx.jpg");
+    auto input = OIIO::ImageInput::open(shared_file("data/fullsize/canon_5d3_22mpx.jpg"));
+    REQUIRE(input);
+    const auto* icc = input->spec().find_attribute("ICCProfile");
+    REQUIRE(icc);
+    const auto transform = color_transform_from_icc(icc->data(), icc->type().size(), 3);
+    REQUIRE(bool(transform));
+    CHECK(*transform == nullptr);
+}
+
+TEST_CASE("the tables of a profile are made once")
+{
+    const auto icc = adobe_rgb();
+    const auto first = color_transform_from_icc(icc.data(), icc.size(), 3);
+    const auto second = color_transform_from_icc(std::vector(icc).data(), icc.size(), 3);
+    REQUIRE(bool(first));
+    REQUIRE(bool(second));
+    CHECK(first->get() == second->get());
+    const auto grey = color_transform_from_icc(icc.data(), icc.size(), 1);
+    CHECK(!grey);
+}
+
 TEST_CASE("damaged and unfitting profiles are named")
 {
     CHECK(refusal(std::vector<unsigned char>(200, 7), 3) ==

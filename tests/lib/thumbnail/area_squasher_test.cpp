@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "thumbnail/area_squasher.h"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
 using namespace srisp;
@@ -27,4 +29,22 @@ TEST_CASE("an image is squashed to any size by the areas that its pixels cover, 
     CHECK(squashed({ 0, 6 }, 2, 1, 3) == std::vector<float>{ 0, 3, 6, 0, 3, 6, 0, 3, 6 });
     // Stored lying on its side: EXIF 6 turns it clockwise.
     CHECK(squashed({ 1, 2, 3, 4 }, 2, 2, 2, 6) == std::vector<float>{ 3, 1, 4, 2 });
+}
+
+TEST_CASE("rows may come in any portions")
+{
+    constexpr int width = 37, height = 53, size = 16;
+    std::vector<float> rgb(std::size_t(width) * height * 3);
+    for (std::size_t i = 0; i < rgb.size(); ++i)
+        rgb[i] = float(i * 7919 % 1009) / 1009;
+    const auto in_portions = [&](int rows) {
+        AreaSquasher squasher(width, height, size);
+        for (int y = 0; y < height; y += rows)
+            squasher.add_rows(
+                { rgb.data() + std::ptrdiff_t(y) * width * 3, width, std::min(rows, height - y), 3, 3 * width });
+        return squasher.finish(1);
+    };
+    const std::vector<float> one_by_one = in_portions(1);
+    for (const int rows : { 3, 4, 5, height })
+        CHECK(in_portions(rows) == one_by_one);
 }
