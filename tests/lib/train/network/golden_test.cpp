@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every step of the LibTorch network against the values of an independent implementation.
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 #include "golden_values.h"
 #include "lib/train/tensor_tools.h"
 #include "train/network/network.h"
 #include "train/run/model_file.h"
+#include "train/tensors/resize.h"
 
 using namespace srisp;
 using namespace srisp::train;
@@ -19,12 +22,13 @@ struct Golden {
     int thumbnail_step = 0;
     std::map<std::string, Tensor> values;
 
-    explicit Golden(const GoldenValues& file) : thumbnail_step(file.thumbnail_step()), values(file.values)
+    explicit Golden(const GoldenValues& file) : values(file.values)
     {
         Expected<LoadedModel> loaded = load_model(file.model);
         REQUIRE_MESSAGE(loaded, (loaded ? "" : loaded.error().message));
         network = std::dynamic_pointer_cast<Network>(loaded->model);
         REQUIRE(network);
+        thumbnail_step = file.thumbnail_step(network->selection_size());
     }
     /// [height, width, 3] as [1, 3, height, width].
     torch::Tensor image(const std::string& name) const
@@ -89,6 +93,9 @@ void check_choice(const Golden& golden, const ChosenParameters& choice)
     check_near(values_of(choice.white_balance), golden, "parameters.white_balance");
     check_near(values_of(choice.gain), golden, "parameters.gain");
     check_near(values_of(choice.base), golden, "base_gain");
+    REQUIRE(choice.log_deviation.defined() == (golden.values.count("brightness_sd_ev") > 0));
+    if (choice.log_deviation.defined())
+        check_near(values_of(choice.log_deviation.exp() / std::log(2.0)), golden, "brightness_sd_ev");
     for (std::size_t l = 0; l < 4; ++l) {
         const std::string layer = std::to_string(l);
         check_near(values_of(choice.tone_reverse_weight[l]), golden, "parameters.tone_reverse." + layer + ".weight");
@@ -105,7 +112,9 @@ void check_all(const GoldenValues& file)
     const Golden golden(file);
     ChosenParameters choice;
     Trace trace;
-    golden.network->traced_reverse(golden.image("thumb.source"), golden.image("thumb.reference"), choice, &trace);
+    const int size = golden.network->selection_size();
+    golden.network->traced_reverse(area_resize(golden.image("thumb.source"), size, size),
+                                   area_resize(golden.image("thumb.reference"), size, size), choice, &trace);
     CHECK(trace.size() == (golden.values.count("source_statistics") ? 11 : 9));
     check_trace(golden, trace);
     check_choice(golden, choice);
