@@ -21,7 +21,8 @@ TEST_CASE("help names every option that a command takes, its values and its defa
     }
     CHECK(has("  input=KIND     auto, srgb or linear (default auto): what the photo's values\n"
               "                 are; auto takes float as linear, integers as sRGB\n"));
-    CHECK(has("  seed=N         for the choice among several references (default 0)\n"));
+    CHECK(has("  seed=N         for the choice among several references, and of a sampled\n"
+              "                 brightness (default 0)\n"));
     CHECK(has("  --srisp-process           Turn a RAW-like image into a photo again, by the\n"
               "                            parameters recorded in it (options: model=, params=,\n"
               "                            precision=)\n"));
