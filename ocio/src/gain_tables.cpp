@@ -29,7 +29,8 @@ struct Corners {
     double inverse(double at) const { return interpolate(to, from, at); }
 };
 
-// 33 points: 31 cells of 0.0032 between grey 0.9 and 1, where m bends; linear interpolation errs by h²/8 · 240 = 3e-4.
+// 33 points: 31 cells of 0.0032 between grey 0.9 and 1, where m is a parabola. A straight line between two of its points
+// lies above it by up to h² / 4 of a cell's height; so the points between the ends are set half of that lower.
 constexpr int kGainPoints = 33, kGainCells = kGainPoints - 1;
 
 /// 0 … 0.9 is one cell, and so is what lies above 1 (`tenths` · 0.1 at the end): there m is constant.
@@ -65,10 +66,17 @@ std::array<double, 2> differences_near_white(const std::array<float, 3>& most, i
     return { std::clamp(1.8 - others, -1.0, -0.05), std::clamp(double(most[c]) - 0.9, 0.05, 2.0) };
 }
 
-/// The formula with factors s + m (1 − s), s < 1, and s otherwise.
-std::array<double, 3> inverse_gain(double grey, const std::array<double, 3>& v, const std::array<float, 3>& scales)
+/// m at the points of the table's first axis, balanced for straight lines between them.
+double balanced_mask(double grey, int cells)
 {
-    const double above = std::clamp((grey - 0.9) / 0.1, 0.0, 1.0), m = above * above;
+    const double above = std::clamp((grey - 0.9) / 0.1, 0.0, 1.0), cell = 1.0 / cells;
+    const bool between = above > cell / 2 && above < 1 - cell / 2;
+    return above * above - (between ? cell * cell / 8 : 0);
+}
+
+/// The formula with factors s + m (1 − s), s < 1, and s otherwise.
+std::array<double, 3> inverse_gain(double m, const std::array<double, 3>& v, const std::array<float, 3>& scales)
+{
     std::array<double, 3> result;
     for (int c = 0; c < 3; ++c)
         result[c] = v[c] * (scales[c] + m * std::max(1.0 - scales[c], 0.0));
@@ -114,7 +122,8 @@ void append_inverse_gain(Operators& operators, const std::array<float, 3>& scale
                 const double at = corners[0].inverse(double(i) / kGainCells) * 0.1 * tenths;
                 const double dr = (2 * corners[1].inverse(double(j) / kGainCells) - 1) * reach[1];
                 const double db = (2 * corners[2].inverse(double(k) / kGainCells) - 1) * reach[2];
-                for (const double value : inverse_gain(at, { at + dr, at - dr - db, at + db }, scales))
+                const double m = balanced_mask(at, tenths > 10 ? kGainCells - 2 : kGainCells - 1);
+                for (const double value : inverse_gain(m, { at + dr, at - dr - db, at + db }, scales))
                     cube.rgb.push_back(static_cast<float>(value));
             }
     operators.push_back(std::move(cube));
@@ -133,7 +142,11 @@ std::array<double, 3> rebuilt(const std::array<double, 3>& u, double gain)
         sum += std::min(value, 1.0);
         top = std::max(top, value);
     }
-    const double root = std::clamp((sum - 2.9) / 0.1, 0.0, 1.0) * (top - 1) / (1 / gain - 1), m = root * root;
+    // A parabola, balanced as in balanced_mask, for half of the steps of all three channels together.
+    const double near_white = std::clamp((sum - 2.9) / 0.1, 0.0, 1.0), step = 1.5 / kFine;
+    const bool between = near_white > 0 && near_white < 1;
+    const double height = (top - 1) / (1 / gain - 1);
+    const double m = std::max(near_white * near_white - (between ? step * step / 8 : 0), 0.0) * height * height;
     std::array<double, 3> result;
     for (int c = 0; c < 3; ++c)
         result[c] = gain * (u[c] + m * (top - u[c]));
