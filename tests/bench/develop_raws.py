@@ -201,4 +201,5 @@ def main():
                           {"format": "srisp-developed-1", "settings": origin, "cameras": json.dumps(cameras)})
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -145,8 +145,8 @@ TestScenes real_test_scenes(const EvaluationSettings& settings, const PackedImag
     TestScenes scenes;
     scenes.set = "real";
     const bool wide = exposure == TestExposure::wide;
-    const double low = std::log(wide ? settings.exposure_low : settings.camera_exposure_low);
-    const double high = std::log(wide ? settings.exposure_high : settings.camera_exposure_high);
+    const double low = wide ? settings.exposure_low : settings.camera_exposure_low;
+    const double high = wide ? settings.exposure_high : settings.camera_exposure_high;
     std::vector<torch::Tensor> images, white_balances, colors;
     std::map<std::string, std::vector<std::size_t>> by_camera;
     for (const std::size_t i : whole_images(raws, settings.real_validation_only))
@@ -158,7 +158,7 @@ TestScenes real_test_scenes(const EvaluationSettings& settings, const PackedImag
                 scenes.cameras.push_back(camera);
             scenes.camera.push_back(static_cast<int>(scenes.cameras.size()) - 1);
             Random random(settings.seed, kExposureStream, i);
-            images.push_back(exposed(packed_image(raws, i), std::exp(random.uniform(low, high))));
+            images.push_back(exposed(packed_image(raws, i), random.log_uniform(low, high)));
             white_balances.push_back(white_balance(raws.entries[i], images.back()));
             colors.push_back(torch::tensor(at::ArrayRef<float>(raws.entries[i].color)).view({ 3, 3 }));
         }

@@ -10,6 +10,7 @@ namespace srisp::train {
 /// none at all; per channel or keeping hues; sRGB's, BT.709's or another gamma; styles of contrast and saturation.
 struct CameraIspSettings {
     double balance_error = 0.04, cast = 0.15, coolest_cast = -0.3, warmest_cast = 0.6;
+    double lowest_exposure = 0.1, highest_exposure = 1.4;
     double gain = 1.3, gain_spread = 0.3;
     double auto_brightness = 0.15;
     double other_matrix = 0.3;
@@ -25,6 +26,8 @@ struct CameraIspSettings {
         v.number("cast", cast, 0, 1, "share balanced for another light than the scene's, as by fixed daylight");
         v.range("cast_strength", coolest_cast, warmest_cast, -1, 1,
                 "ln of the red gain's error there, and of the blue one's the other way");
+        v.range("exposure", lowest_exposure, highest_exposure, 1e-3, 100,
+                "the simulation's exposure of what is rendered so; drawn evenly in its log");
         v.number("gain", gain, 0.1, 10, "median over cameras of the gain of the RAW");
         v.number("gain_spread", gain_spread, 0, 2, "deviation of its ln between cameras");
         v.number("auto_brightness", auto_brightness, 0, 1,

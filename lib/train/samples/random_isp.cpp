@@ -67,8 +67,7 @@ torch::Tensor exposure_gains(const RandomIspSettings& settings, const torch::Ten
                    by_mean = random.chance(settings.average_metering);
         const double gain = random.uniform(settings.lowest_gain, settings.highest_gain);
         const double target = random.uniform(settings.lowest_target, settings.highest_target);
-        const double mean =
-            std::exp(random.uniform(std::log(settings.lowest_average), std::log(settings.highest_average)));
+        const double mean = random.log_uniform(settings.lowest_average, settings.highest_average);
         fixed.push_back(automatic ? 0 : gain);
         percentile.push_back(automatic && !by_mean ? target : 0);
         average.push_back(automatic && by_mean ? mean : 0);

@@ -50,6 +50,17 @@ torch::Tensor index_tensor(const Indices& which, const torch::Device& device)
     return torch::tensor(which, torch::kLong).to(device);
 }
 
+enum Rendering { kFixed, kCamera, kRandom, kRenderings };
+
+/// `random` is what remains for the rendering afterwards.
+Rendering draw_rendering(const DataSettings& settings, Random& random)
+{
+    const double number = random.uniform();
+    if (number < settings.fixed_share)
+        return kFixed;
+    return number < settings.fixed_share + settings.camera_share ? kCamera : kRandom;
+}
+
 /// Gains [N, 3, 1, 1] that turn the light of RAW `entries` into that of `others`.
 torch::Tensor relighting(const SceneSource& source, const std::vector<int>& entries, const std::vector<int>& others)
 {
@@ -99,7 +110,11 @@ SampleMaker::Exposures SampleMaker::simulated(const Randoms& randoms, const std:
     std::vector<int> entries;
     for (const Random& random : randoms) {
         captures.push_back(draw_capture(m_settings.simulation, m_cameras, false, random.fork(kCapture)));
-        Random scene = random.fork(kScene);
+        Random scene = random.fork(kScene), rendering = random.fork(kRendering), exposure = random.fork(kExposure);
+        // Those others make up for a wrong exposure; a camera does not, and most photos that are kept have a right one.
+        if (draw_rendering(m_settings, rendering) == kCamera)
+            captures.back().exposure =
+                exposure.log_uniform(m_settings.camera.lowest_exposure, m_settings.camera.highest_exposure);
         entries.push_back(m_photos.draw(m_settings.whole_share, scene));
     }
     const auto simulation = fork(randoms, kSimulation);
@@ -147,8 +162,8 @@ SampleMaker::Exposures SampleMaker::real(const Randoms& randoms, const std::vect
         others.push_back(other_scene[i] ? m_raws.draw_other(entries[i], true, m_settings.whole_share, other)
                                         : entries[i]);
         Random exposure = randoms[i].fork(kExposure);
-        factors.push_back(static_cast<float>(std::exp(
-            exposure.uniform(std::log(m_settings.lowest_raw_exposure), std::log(m_settings.highest_raw_exposure)))));
+        factors.push_back(
+            static_cast<float>(exposure.log_uniform(m_settings.lowest_raw_exposure, m_settings.highest_raw_exposure)));
         const auto& gains = m_raws.entry(entries[i]).white_balance;
         std::copy(gains.begin(), gains.end(), balances[i].data_ptr<float>());
     }
@@ -199,17 +214,12 @@ SampleMaker::Exposures SampleMaker::expose_scenes(const Randoms& randoms, const 
 
 torch::Tensor SampleMaker::render(const Exposures& exposures, const Randoms& randoms) const
 {
-    enum Kind { kFixed, kCamera, kRandom, kKinds };
-    std::array<Indices, kKinds> chosen;
+    std::array<Indices, kRenderings> chosen;
     auto choices = fork(randoms, kRendering);
-    for (std::size_t i = 0; i < choices.size(); ++i) {
-        const double number = choices[i].uniform();
-        const bool fixed = number < m_settings.fixed_share;
-        const bool camera = !fixed && number < m_settings.fixed_share + m_settings.camera_share;
-        chosen[fixed ? kFixed : (camera ? kCamera : kRandom)].push_back(static_cast<std::int64_t>(i));
-    }
+    for (std::size_t i = 0; i < choices.size(); ++i)
+        chosen[draw_rendering(m_settings, choices[i])].push_back(static_cast<std::int64_t>(i));
     auto rendered = torch::empty_like(exposures.raw);
-    for (int kind = 0; kind < kKinds; ++kind) {
+    for (int kind = 0; kind < kRenderings; ++kind) {
         if (chosen[kind].empty())
             continue;
         const auto index = index_tensor(chosen[kind], m_device);

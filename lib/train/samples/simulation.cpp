@@ -40,11 +40,6 @@ CameraColor light_mean(const SimulatedCameras& cameras, int camera,
     return camera_color(mean);
 }
 
-double log_uniform(Random& random, double low, double high)
-{
-    return std::exp(random.uniform(std::log(low), std::log(high)));
-}
-
 /// One number of each capture, [N, 1, 1, 1].
 template<class Get> torch::Tensor each(const std::vector<Capture>& captures, const torch::Device& device, Get get)
 {
@@ -74,10 +69,10 @@ Capture draw_capture(const SimulationSettings& settings, const SimulatedCameras&
     Capture capture;
     capture.camera = draw_camera(cameras, validation, random);
     const bool mixed = random.chance(settings.mixed_light);
-    capture.exposure = log_uniform(random, settings.lowest_exposure, settings.highest_exposure);
+    capture.exposure = random.log_uniform(settings.lowest_exposure, settings.highest_exposure);
     capture.black_error = random.uniform(settings.lowest_black_error, settings.highest_black_error);
-    const double averaged = log_uniform(random, settings.lowest_averaged, settings.highest_averaged);
-    const double shot = log_uniform(random, settings.lowest_shot, settings.highest_shot);
+    const double averaged = random.log_uniform(settings.lowest_averaged, settings.highest_averaged);
+    const double shot = random.log_uniform(settings.lowest_shot, settings.highest_shot);
     capture.shot = shot / averaged;
     capture.read = std::exp(2.18 * std::log(shot) + 1.20 + 0.26 * random.normal()) / averaged; // [method 4: UPI]
     for (int i = 0; i < (mixed ? 2 : 1); ++i) {

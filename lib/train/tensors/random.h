@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -30,6 +31,9 @@ public:
     {
         return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53);
     }
+
+    /// Evenly in its log; 0 < low ≤ high.
+    double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
 
     /// Mean 0, standard deviation 1: the sum of twelve uniform numbers, which needs no function whose last bit differs
     /// between machines. Never beyond ±6.

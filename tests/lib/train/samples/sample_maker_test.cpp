@@ -25,7 +25,7 @@ DataSettings with_everything()
     settings.simulation.mixed_light = 0.5;
     settings.simulation.photo.histogram = 0.5;
     settings.simulation.photo.flattening = 0.5;
-    settings.fixed_share = 0.3;
+    settings.fixed_share = settings.camera_share = 0.3;
     settings.isp.local_contrast = settings.isp.channel_curves = 0.5;
     return settings;
 }
@@ -235,6 +235,26 @@ TEST_CASE("real RAW images keep their truth up to exposure, and their references
         }
         CHECK(found);
     }
+}
+
+TEST_CASE("what is rendered as cameras do has a range of exposures of its own")
+{
+    const SmallPack pack;
+    DataSettings settings;
+    settings.image_size = 32;
+    settings.simulation.lowest_exposure = settings.simulation.highest_exposure = 0.02;
+    settings.camera.lowest_exposure = settings.camera.highest_exposure = 1;
+    settings.simulation.exposure_of = "percentile";
+    const auto brightest = [&](double camera_share) {
+        settings.camera_share = camera_share;
+        const SampleMaker maker(settings, pack.sources, 5, torch::kCPU);
+        return maker.scenes(1, 0, 8).raw.select(1, 1).flatten(1).quantile(0.97, 1);
+    };
+    CHECK(brightest(0).max().item<float>() < 0.05);
+    CHECK(brightest(1).min().item<float>() > 0.5);
+    const auto some = brightest(0.5) > 0.4;
+    CHECK(some.any().item<bool>());
+    CHECK_FALSE(some.all().item<bool>());
 }
 
 TEST_CASE("samples that cannot be made are refused in words")
