@@ -11,7 +11,7 @@ namespace srisp::train {
 namespace {
 
 /// Purposes of random numbers within a rendering.
-enum Purpose { kBalance, kBrightness, kMatrix, kMix, kCurve, kWhite, kHue, kEncoding, kSaturation, kStyle };
+enum Purpose { kBalance, kBrightness, kMatrix, kMix, kCurve, kWhite, kHue, kEncoding, kSaturation, kStyle, kPlain };
 
 constexpr double kMiddleGrey = 0.18;
 
@@ -50,6 +50,23 @@ torch::Tensor auto_brightness(const CameraIspSettings& settings, const torch::Te
     return torch::where(has > 0, (1 / white.clamp_min(1.0 / 64)).clamp_min(1).view({ -1, 1, 1, 1 }), 1.0);
 }
 
+/// The first draw of a camera's curve.
+bool draw_curved(const CameraIspSettings& settings, Random& curve)
+{
+    return curve.chance(settings.curved);
+}
+
+/// Each camera's gain, or 1 where it renders plainly: [N, 1, 1, 1].
+torch::Tensor gains_used(const CameraIspSettings& settings, const torch::Tensor& gains, const Randoms& randoms)
+{
+    auto curves = fork(randoms, kCurve), plain = fork(randoms, kPlain);
+    const auto used = gains.to(torch::kCPU).clone().view({ -1, 1, 1, 1 });
+    for (std::size_t n = 0; n < curves.size(); ++n)
+        if (!draw_curved(settings, curves[n]) && plain[n].chance(settings.plain))
+            used[n] = 1;
+    return used;
+}
+
 /// Tone curves through (0, 0), middle grey and (1, 1): x^c (1 + k) / (x^c + k), which is steepest in between. Linear
 /// where an image has none.
 struct ToneCurves {
@@ -64,7 +81,7 @@ struct ToneCurves {
         k = has.clone();
         for (std::size_t n = 0; n < forks.size(); ++n) {
             Random& random = forks[n];
-            const bool curved = random.chance(settings.curved);
+            const bool curved = draw_curved(settings, random);
             const double brightened =
                 kMiddleGrey * std::exp(random.uniform(settings.lowest_middle, settings.highest_middle));
             const double c = random.uniform(settings.lowest_contrast, settings.highest_contrast);
@@ -137,7 +154,7 @@ torch::Tensor render_camera(const CameraIspSettings& settings, const torch::Tens
                             const torch::Tensor& gains, const Randoms& randoms)
 {
     const auto device = raw.device();
-    const auto gain = gains.to(device).view({ -1, 1, 1, 1 });
+    const auto gain = gains_used(settings, gains, randoms).to(device);
     // What the sensor clipped is grey.
     const auto balanced = (raw * balance_gains(settings, white_balance.to(device), randoms)).clamp_max_(1);
     const auto matrices = chosen_matrices(settings, color.to(device), others.to(device), randoms);

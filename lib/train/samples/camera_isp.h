@@ -12,6 +12,7 @@ struct CameraIspSettings {
     double balance_error = 0.04, cast = 0.15, coolest_cast = -0.3, warmest_cast = 0.6;
     double lowest_exposure = 0.1, highest_exposure = 1.4;
     double gain = 1.3, gain_spread = 0.3;
+    double plain = 0;
     double auto_brightness = 0.15;
     double other_matrix = 0.3;
     double curved = 0.75, lowest_middle = 0, highest_middle = 1.2, lowest_contrast = 1, highest_contrast = 1.6;
@@ -30,6 +31,7 @@ struct CameraIspSettings {
                 "the simulation's exposure of what is rendered so; drawn evenly in its log");
         v.number("gain", gain, 0.1, 10, "median over cameras of the gain of the RAW");
         v.number("gain_spread", gain_spread, 0, 2, "deviation of its ln between cameras");
+        v.number("plain", plain, 0, 1, "share of those without a tone curve whose gain is 1, as RAW converters'");
         v.number("auto_brightness", auto_brightness, 0, 1,
                  "share brightened until the brightest channel clips in 1 % of the pixels, as dcraw does");
         v.number("other_matrix", other_matrix, 0, 1, "share with a mix of other cameras' matrices, not its own");

@@ -59,6 +59,18 @@ TEST_CASE("without a curve a camera's picture is its balanced RAW times the gain
     CHECK(largest(photo - srgb_encoded((ramp() * 1.5).clamp_max(1))) <= kCode);
 }
 
+TEST_CASE("a share of the pictures without a curve has a gain of 1")
+{
+    CameraIspSettings settings = plain();
+    const auto without_gain = srgb_encoded(ramp());
+    CHECK(largest(rendered(settings, ramp(), 1.5) - without_gain) > 0.1);
+    settings.plain = 1;
+    CHECK(largest(rendered(settings, ramp(), 1.5) - without_gain) <= kCode);
+    settings.curved = 1;
+    settings.rolled_off = 0;
+    CHECK_FALSE(torch::equal(rendered(settings, ramp(), 1.5), rendered(settings, ramp(), 1)));
+}
+
 TEST_CASE("a RAW image that is darker gives a picture that is darker: a camera does not make up for it")
 {
     CameraIspSettings settings;
