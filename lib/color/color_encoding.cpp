@@ -237,6 +237,8 @@ ColorTransformPtr transform_of(const ColorEncoding& encoding, int channels)
     const Matrix3 matrix = channels == 1 || encoding.chromaticities == kSrgbChromaticities
                                ? identity
                                : to_linear_srgb(encoding.chromaticities);
+    if (encoding.transfer == Transfer::srgb && matrix == identity)
+        return nullptr;
     if (encoding.transfer == Transfer::linear)
         return linear_matrix(matrix);
     const CurveTable table([&](double v) { return to_linear(encoding, v); });

@@ -168,6 +168,13 @@ void limit_strips(OIIO::ImageSpec& spec)
         spec.attribute(kRows, spec.height);
 }
 
+std::int64_t rows_of_part(std::int64_t most_pixels, const OIIO::ImageSpec& spec, int parts)
+{
+    constexpr std::int64_t kLeastPixels = 1 << 14;
+    const std::int64_t width = std::max(spec.width, 1), rows = (std::int64_t(spec.height) + parts - 1) / parts;
+    return std::max<std::int64_t>(std::min(most_pixels / width, std::max(rows, kLeastPixels / width)), 1);
+}
+
 int rows_in_tiles(std::int64_t wanted, const OIIO::ImageSpec& spec)
 {
     const std::int64_t tile = std::max(spec.tile_height, 1);

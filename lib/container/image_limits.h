@@ -32,6 +32,10 @@ Status check_claim(const char* reader, std::uint64_t width, std::uint64_t height
 /// all rows from here on.
 void limit_strips(OIIO::ImageSpec& spec);
 
+/// Rows of at most so many pixels, but of a small image one of `parts`: memory that was not used before takes longer to
+/// come than what is computed in it, and the next part uses it again.
+std::int64_t rows_of_part(std::int64_t most_pixels, const OIIO::ImageSpec& spec, int parts);
+
 /// Rows that are read at a time: `wanted` rounded up to whole tiles, at most the image's.
 int rows_in_tiles(std::int64_t wanted, const OIIO::ImageSpec& spec);
 

@@ -12,7 +12,7 @@ namespace srisp {
 
 namespace {
 
-constexpr int kSide = CubeFft::kSide, kPlane = kSide * kSide;
+constexpr int kSide = CubeFft::kSide, kPlane = CubeFft::kPlane;
 
 constexpr int kTurns = 3 * kSide / 4; // most that the steps use
 
@@ -62,13 +62,14 @@ const Roots& roots()
 }
 
 /// Two steps at once, on what is 4, then 2 `quarter`s apart: they pass memory once.
+template<int kStride>
 inline __attribute__((always_inline)) void forward_steps(float* real, float* imaginary, int quarter)
 {
     const Roots& root = roots();
-    const int step = kSide / 4 / quarter, apart = quarter * kSide;
+    const int step = kSide / 4 / quarter, apart = quarter * kStride;
     for (int j = 0; j < quarter; ++j)
         for (int block = j; block < kSide; block += 4 * quarter)
-            for (int i = block * kSide; i < (block + 1) * kSide; i += kLanes) {
+            for (int i = block * kStride; i < block * kStride + kSide; i += kLanes) {
                 float *const re = real + i, *const im = imaginary + i;
                 Complex x0, x1, x2, x3;
                 load(re, im, x0);
@@ -90,13 +91,14 @@ inline __attribute__((always_inline)) void forward_steps(float* real, float* ima
 }
 
 /// The same back.
+template<int kStride>
 inline __attribute__((always_inline)) void inverse_steps(float* real, float* imaginary, int quarter)
 {
     const Roots& root = roots();
-    const int step = kSide / 4 / quarter, apart = quarter * kSide;
+    const int step = kSide / 4 / quarter, apart = quarter * kStride;
     for (int j = 0; j < quarter; ++j)
         for (int block = j; block < kSide; block += 4 * quarter)
-            for (int i = block * kSide; i < (block + 1) * kSide; i += kLanes) {
+            for (int i = block * kStride; i < block * kStride + kSide; i += kLanes) {
                 float *const re = real + i, *const im = imaginary + i;
                 Complex x0, x1, x2, x3;
                 load(re, im, x0);
@@ -116,51 +118,108 @@ inline __attribute__((always_inline)) void inverse_steps(float* real, float* ima
 }
 
 /// The step between neighbours, the same in both directions.
-inline __attribute__((always_inline)) void neighbour_step(float* real, float* imaginary)
+template<int kStride> inline __attribute__((always_inline)) void neighbour_step(float* real, float* imaginary)
 {
-    for (int row = 0; row < kPlane; row += 2 * kSide)
+    for (int row = 0; row < kSide * kStride; row += 2 * kStride)
         for (int i = row; i < row + kSide; i += kLanes) {
             Complex a, b;
             load(real + i, imaginary + i, a);
-            load(real + i + kSide, imaginary + i + kSide, b);
+            load(real + i + kStride, imaginary + i + kStride, b);
             store({ a.re + b.re, a.im + b.im }, real + i, imaginary + i);
-            store({ a.re - b.re, a.im - b.im }, real + i + kSide, imaginary + i + kSide);
+            store({ a.re - b.re, a.im - b.im }, real + i + kStride, imaginary + i + kStride);
         }
 }
 
-/// 32 columns side by side. Frequencies come out with their bits reversed.
-SRISP_WIDE_LANES void forward_columns(float* real, float* imaginary)
+/// 32 columns side by side, rows of which lie kStride apart. Frequencies come out with their bits reversed.
+template<int kStride> inline __attribute__((always_inline)) void forward_columns(float* real, float* imaginary)
 {
-    forward_steps(real, imaginary, kSide / 4);
-    forward_steps(real, imaginary, kSide / 16);
-    neighbour_step(real, imaginary);
+    forward_steps<kStride>(real, imaginary, kSide / 4);
+    forward_steps<kStride>(real, imaginary, kSide / 16);
+    neighbour_step<kStride>(real, imaginary);
 }
 
 /// From reversed order back.
-SRISP_WIDE_LANES void inverse_columns(float* real, float* imaginary)
+template<int kStride> inline __attribute__((always_inline)) void inverse_columns(float* real, float* imaginary)
 {
-    neighbour_step(real, imaginary);
-    inverse_steps(real, imaginary, kSide / 16);
-    inverse_steps(real, imaginary, kSide / 4);
+    neighbour_step<kStride>(real, imaginary);
+    inverse_steps<kStride>(real, imaginary, kSide / 16);
+    inverse_steps<kStride>(real, imaginary, kSide / 4);
 }
 
-void transpose(float* plane)
+/// A square of eight by eight: rows become columns.
+inline __attribute__((always_inline)) void transpose_block(Lanes (&rows)[kLanes])
 {
-    for (int y = 1; y < kSide; ++y)
-        for (int x = 0; x < y; ++x)
-            std::swap(plane[y * kSide + x], plane[x * kSide + y]);
+    Lanes pairs[kLanes], fours[kLanes];
+    for (int i = 0; i < kLanes; i += 2) {
+        pairs[i] = __builtin_shufflevector(rows[i], rows[i + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+        pairs[i + 1] = __builtin_shufflevector(rows[i], rows[i + 1], 2, 10, 3, 11, 6, 14, 7, 15);
+    }
+    for (int i = 0; i < kLanes; i += 4)
+        for (int k = 0; k < 2; ++k) {
+            const Lanes &a = pairs[i + k], &b = pairs[i + k + 2];
+            fours[i + 2 * k] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+            fours[i + 2 * k + 1] = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+        }
+    for (int i = 0; i < kLanes / 2; ++i) {
+        const Lanes &a = fours[i], &b = fours[i + 4];
+        rows[i] = __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);
+        rows[i + 4] = __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15);
+    }
 }
 
-/// Rows of one y, from all planes of a cube, and back.
-void gather(const float* cube, float* rows)
+inline __attribute__((always_inline)) void load_block(const float* from, Lanes (&rows)[kLanes])
 {
-    for (int x = 0; x < kSide; ++x)
-        std::memcpy(rows + x * kSide, cube + x * kPlane, kSide * sizeof(float));
+    for (int i = 0; i < kLanes; ++i)
+        srisp::load(from + i * kSide, rows[i]);
 }
-void scatter(const float* rows, float* cube)
+
+inline __attribute__((always_inline)) void store_block(const Lanes (&rows)[kLanes], float* to)
 {
-    for (int x = 0; x < kSide; ++x)
-        std::memcpy(cube + x * kPlane, rows + x * kSide, kSide * sizeof(float));
+    for (int i = 0; i < kLanes; ++i)
+        srisp::store(rows[i], to + i * kSide);
+}
+
+inline __attribute__((always_inline)) void transpose(float* plane)
+{
+    for (int y = 0; y < kSide; y += kLanes)
+        for (int x = 0; x <= y; x += kLanes) {
+            float *const below = plane + y * kSide + x, *const above = plane + x * kSide + y;
+            Lanes rows[kLanes], mirrored[kLanes];
+            load_block(below, rows);
+            load_block(above, mirrored);
+            transpose_block(rows);
+            transpose_block(mirrored);
+            store_block(rows, above);
+            store_block(mirrored, below);
+        }
+}
+
+/// Along x.
+SRISP_WIDE_LANES void forward_x(float* real, float* imaginary)
+{
+    for (int y = 0; y < kSide; ++y)
+        forward_columns<kPlane>(real + y * kSide, imaginary + y * kSide);
+}
+SRISP_WIDE_LANES void inverse_x(float* real, float* imaginary)
+{
+    for (int y = 0; y < kSide; ++y)
+        inverse_columns<kPlane>(real + y * kSide, imaginary + y * kSide);
+}
+
+/// Along both other axes, which change places.
+SRISP_WIDE_LANES void forward_plane(float* real, float* imaginary)
+{
+    forward_columns<kSide>(real, imaginary);
+    transpose(real);
+    transpose(imaginary);
+    forward_columns<kSide>(real, imaginary);
+}
+SRISP_WIDE_LANES void inverse_plane(float* real, float* imaginary)
+{
+    inverse_columns<kSide>(real, imaginary);
+    transpose(real);
+    transpose(imaginary);
+    inverse_columns<kSide>(real, imaginary);
 }
 
 } // namespace
@@ -173,40 +232,18 @@ int CubeFft::place(int k)
     return reversed;
 }
 
-void CubeFft::transform_x(Columns columns)
-{
-    // In a copy: what lies 4 KB apart gets into each other's way in the cache.
-    float rows_real[kPlane], rows_imaginary[kPlane];
-    for (int y = 0; y < kSide; ++y) {
-        gather(real() + y * kSide, rows_real);
-        gather(imaginary() + y * kSide, rows_imaginary);
-        columns(rows_real, rows_imaginary);
-        scatter(rows_real, real() + y * kSide);
-        scatter(rows_imaginary, imaginary() + y * kSide);
-    }
-}
-
-void CubeFft::transform_planes(Columns columns)
-{
-    for (int x = 0; x < kSide; ++x) {
-        float *const plane_real = real() + x * kPlane, *const plane_imaginary = imaginary() + x * kPlane;
-        columns(plane_real, plane_imaginary);
-        transpose(plane_real);
-        transpose(plane_imaginary);
-        columns(plane_real, plane_imaginary);
-    }
-}
-
 void CubeFft::forward()
 {
-    transform_x(forward_columns);
-    transform_planes(forward_columns);
+    forward_x(real(), imaginary());
+    for (int x = 0; x < kSide; ++x)
+        forward_plane(real() + at(x, 0, 0), imaginary() + at(x, 0, 0));
 }
 
 void CubeFft::inverse()
 {
-    transform_planes(inverse_columns);
-    transform_x(inverse_columns);
+    for (int x = 0; x < kSide; ++x)
+        inverse_plane(real() + at(x, 0, 0), imaginary() + at(x, 0, 0));
+    inverse_x(real(), imaginary());
 }
 
 } // namespace srisp

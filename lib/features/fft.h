@@ -10,11 +10,14 @@ namespace srisp {
 class CubeFft {
 public:
     static constexpr int kSide = 32, kCells = kSide * kSide * kSide;
+    /// From one x to the next, a cache line more than the cells of a plane: what lies 4 KB apart gets into each other's
+    /// way in the cache. The floats between planes are for nothing, and stay as they are.
+    static constexpr int kPlane = kSide * kSide + 16, kFloats = kSide * kPlane;
 
-    CubeFft() : m_real(kCells), m_imaginary(kCells) {}
+    CubeFft() : m_real(kFloats), m_imaginary(kFloats) {}
 
-    /// Cell (x, y, z) is at (x · 32 + y) · 32 + z; in the spectrum, the frequencies (x, y, z) are at
-    /// (place(x) · 32 + place(z)) · 32 + place(y).
+    static int at(int x, int y, int z) { return x * kPlane + y * kSide + z; }
+    /// Cell (x, y, z) is at(x, y, z); in the spectrum, the frequencies (x, y, z) are at(place(x), place(z), place(y)).
     float* real() { return m_real.data(); }
     float* imaginary() { return m_imaginary.data(); }
     /// Where frequency k, 0 … 31, is along its axis: the bits of k reversed.
@@ -24,12 +27,6 @@ public:
     void inverse();
 
 private:
-    /// Transforms the 32 columns of a plane in one of the directions.
-    using Columns = void (*)(float* real, float* imaginary);
-    void transform_x(Columns columns);
-    /// Along both other axes, which change places.
-    void transform_planes(Columns columns);
-
     std::vector<float> m_real, m_imaginary;
 };
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "base/planes.h"
@@ -21,14 +23,22 @@ using ReducedImage = std::array<std::vector<float>, 3>;
 /// that images of all sizes give about the same numbers.
 ReducedImage reduced(const PlanarImage& image);
 
-/// Quantiles of some values, interpolated linearly at q (n − 1). At least one value, none of them NaN.
+/// Quantiles of some values, interpolated linearly at q (n − 1). At least one value, none of them NaN. They lie in
+/// order of narrow ranges; within one only when a rank in it is asked for.
 class Quantiles {
 public:
-    explicit Quantiles(std::vector<float> values);
-    double operator()(double q) const;
+    explicit Quantiles(const std::vector<float>& values);
+    double operator()(double q);
 
 private:
-    std::vector<float> m_sorted;
+    std::size_t range_of(std::uint32_t key) const { return (key - m_least) >> m_shift; }
+    /// The value that is greater than `rank` others.
+    float ranked(std::size_t rank);
+
+    std::vector<std::uint32_t> m_keys; ///< the values
+    std::vector<std::uint32_t> m_ends; ///< where each range ends among them
+    std::uint32_t m_least = 0;
+    int m_shift = 0;
 };
 
 /// 12 numbers of a linear image, R, G, B each: ln(max(mean, 1e-3)); mean of ln(max(v, 1e-3)); ln(max(median, 1e-3));
@@ -44,8 +54,8 @@ constexpr int kQuantileFeatures = 71;
 /// at or above its quantile 0.75. Quantiles interpolate linearly at q (count − 1).
 std::array<float, kQuantileFeatures> quantile_features(const ReducedImage& image);
 
-/// `statistics` of an image and `quantile_features` of its reduction: where that has all of its pixels, they are sorted
-/// once for both.
+/// `statistics` of an image and `quantile_features` of its reduction: where that has all of its pixels, they are put in
+/// order once for both.
 struct ColorFeatures {
     std::array<float, 12> statistics;
     std::array<float, kQuantileFeatures> quantiles;

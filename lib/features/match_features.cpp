@@ -10,12 +10,13 @@
 #include "base/matrix3.h"
 #include "features/fft.h"
 #include "features/lanes.h"
+#include "features/sums.h"
 
 namespace srisp {
 
 namespace {
 
-constexpr int kSide = CubeFft::kSide, kCells = CubeFft::kCells;
+constexpr int kSide = CubeFft::kSide, kFloats = CubeFft::kFloats;
 constexpr double kGammas[] = { 1.65, 2.2, 2.9 }, kSourceGamma = 2.2;
 constexpr Matrix3 kCamera = { 0.60f, 0.32f, 0.08f, 0.15f, 0.70f, 0.15f, 0.05f, 0.28f, 0.67f };
 
@@ -84,12 +85,15 @@ void see_by_camera(const ReducedImage& logs, double gamma, ReducedImage& result)
                   logs[0].size(), { result[0].data(), result[1].data(), result[2].data() });
 }
 
-double mean(const std::vector<float>& values, std::size_t count)
+using Means = std::array<double, 3>;
+
+/// Of the first `count` pixels.
+Means means_of(const ReducedImage& image, std::size_t count)
 {
-    double sum = 0;
-    for (std::size_t i = 0; i < count; ++i)
-        sum += values[i];
-    return sum / static_cast<double>(count);
+    Means means;
+    for (int c = 0; c < 3; ++c)
+        means[c] = sum_of(image[c].data(), count) / static_cast<double>(count);
+    return means;
 }
 
 inline __attribute__((always_inline)) void to_coordinate(Lanes& distance, float cell_size)
@@ -141,26 +145,35 @@ struct Place {
     }
 };
 
+typedef float Pair __attribute__((vector_size(2 * sizeof(float))));
+
 void add(float* cells, const Place& x, const Place& y, const Place& z, float weight)
 {
-    float* const corner = cells + (x.cell * kSide + y.cell) * kSide + z.cell;
+    const Pair shares{ 1 - z.next, z.next };
     for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2; ++j) {
-            float* const edge = corner + (i * kSide + j) * kSide;
-            const float share = weight * (i ? x.next : 1 - x.next) * (j ? y.next : 1 - y.next);
-            edge[0] += share * (1 - z.next);
-            edge[1] += share * z.next;
+            float* const edge = cells + CubeFft::at(x.cell + i, y.cell + j, z.cell);
+            Pair sum;
+            std::memcpy(&sum, edge, sizeof sum);
+            sum += weight * (i ? x.next : 1 - x.next) * (j ? y.next : 1 - y.next) * shares;
+            std::memcpy(edge, &sum, sizeof sum);
         }
 }
 
-/// Square roots of the cells' shares. `image`: whole lanes of pixels, of which the first `count` are taken.
-void root_histogram(const ReducedImage& image, std::size_t count, float* cells)
+bool are_zeros(const float* lanes)
 {
-    const double dark = kDark * (mean(image[0], count) + mean(image[1], count) + mean(image[2], count)) / 3;
+    constexpr float kZeros[kLanes] = {};
+    return std::memcmp(lanes, kZeros, sizeof kZeros) == 0;
+}
+
+/// Square roots of the cells' shares. `image`: whole lanes of pixels, of which the first `count` are taken.
+void root_histogram(const ReducedImage& image, std::size_t count, const Means& means, float* cells)
+{
+    const double dark = kDark * (means[0] + means[1] + means[2]) / 3;
     std::vector<Places> all(image[0].size() / kLanes);
     find_places({ image[0].data(), image[1].data(), image[2].data() }, image[0].size(), static_cast<float>(dark),
                 all.data());
-    std::fill_n(cells, kCells, 0.0f);
+    std::fill_n(cells, kFloats, 0.0f);
     double sum = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const Places& places = all[i / kLanes];
@@ -172,9 +185,10 @@ void root_histogram(const ReducedImage& image, std::size_t count, float* cells)
         sum += weight;
     }
     const auto scale = static_cast<float>(1 / std::max<double>(sum, kLeastWeight));
-    for (int i = 0; i < kCells; ++i)
-        if (cells[i] > 0) // few are
-            cells[i] = std::sqrt(cells[i] * scale);
+    for (float* some = cells; some < cells + kFloats; some += kLanes)
+        if (!are_zeros(some)) // most are
+            for (int k = 0; k < kLanes; ++k)
+                some[k] = std::sqrt(some[k] * scale);
 }
 
 /// What the spectrum is multiplied with along one axis, in its order: the Gaussians of kSmoothing, and a third of the
@@ -196,10 +210,12 @@ void correlate(CubeFft& cube, const MatchReference& reference)
 {
     static const auto smooth = smoothing();
     cube.forward();
-    float *re = cube.real(), *im = cube.imaginary();
-    const float *other_re = reference.real().data(), *other_im = reference.imaginary().data();
     for (int x = 0; x < kSide; ++x)
-        for (int y = 0; y < kSide; ++y, re += kSide, im += kSide, other_re += kSide, other_im += kSide) {
+        for (int y = 0; y < kSide; ++y) {
+            const int row = CubeFft::at(x, y, 0);
+            float *const re = cube.real() + row, *const im = cube.imaginary() + row;
+            const float* const other_re = reference.real().data() + row;
+            const float* const other_im = reference.imaginary().data() + row;
             const float narrow_xy = smooth[0][x] * smooth[0][y], wide_xy = smooth[1][x] * smooth[1][y];
             for (int z = 0; z < kSide; ++z) {
                 const float product_re = re[z] * other_re[z] + im[z] * other_im[z];
@@ -237,13 +253,15 @@ SRISP_WIDE_LANES Shares shares_of(const float* correlation, float peak, float sc
     constexpr int kBlocks = kSide / kLanes;
     Shares shares;
     Lanes columns[kBlocks] = {};
-    for (int row = 0; row < kSide * kSide; ++row, correlation += kSide) {
-        if ((largest(correlation, kSide) - peak) * scale < kNegligible)
+    for (int row = 0; row < kSide * kSide; ++row) {
+        const int x = row / kSide, y = row % kSide;
+        const float* const values = correlation + CubeFft::at(x, y, 0);
+        if ((largest(values, kSide) - peak) * scale < kNegligible)
             continue; // most rows are so
         Lanes sum = {};
         for (int block = 0; block < kBlocks; ++block) {
             Lanes exponent;
-            load(correlation + block * kLanes, exponent);
+            load(values + block * kLanes, exponent);
             exponent = (exponent - peak) * scale;
             const IntLanes negligible = exponent < kNegligible;
             take_exp(exponent);
@@ -254,8 +272,8 @@ SRISP_WIDE_LANES Shares shares_of(const float* correlation, float peak, float sc
         double row_sum = 0;
         for (int k = 0; k < kLanes; ++k)
             row_sum += sum[k];
-        shares.along[0][row / kSide] += row_sum;
-        shares.along[1][row % kSide] += row_sum;
+        shares.along[0][x] += row_sum;
+        shares.along[1][y] += row_sum;
         shares.all += row_sum;
     }
     for (int z = 0; z < kSide; ++z)
@@ -265,7 +283,7 @@ SRISP_WIDE_LANES Shares shares_of(const float* correlation, float peak, float sc
 
 SRISP_WIDE_LANES float peak_of(const float* correlation)
 {
-    return largest(correlation, kCells);
+    return largest(correlation, kFloats);
 }
 
 /// Which shifts fit: 7 numbers.
@@ -273,7 +291,7 @@ float* describe_peak(float* correlation, float* features)
 {
     float peak = peak_of(correlation);
     if (peak < kNoMatch) {
-        std::fill_n(correlation, kCells, 0.0f);
+        std::fill_n(correlation, kFloats, 0.0f);
         peak = 0;
     }
     const Shares shares = shares_of(correlation, peak, kSharpness / std::max(peak, kNoMatch));
@@ -300,10 +318,10 @@ MatchReference::MatchReference(const ReducedImage& reference)
     ReducedImage image = reference;
     for (std::vector<float>& channel : image)
         channel.resize(whole_lanes(count));
-    root_histogram(image, count, cube.real());
+    root_histogram(image, count, means_of(reference, count), cube.real());
     cube.forward();
-    m_real.assign(cube.real(), cube.real() + kCells);
-    m_imaginary.assign(cube.imaginary(), cube.imaginary() + kCells);
+    m_real.assign(cube.real(), cube.real() + kFloats);
+    m_imaginary.assign(cube.imaginary(), cube.imaginary() + kFloats);
 }
 
 std::array<float, kMatchFeatures> match_features(const ReducedImage& linear_source, const MatchReference& reference)
@@ -316,13 +334,14 @@ std::array<float, kMatchFeatures> match_features(const ReducedImage& linear_sour
     CubeFft cube;
     for (const double gamma : kGammas) {
         see_by_camera(logs, gamma, seen);
-        root_histogram(seen, count, cube.real());
-        std::fill_n(cube.imaginary(), kCells, 0.0f);
+        const Means means = means_of(seen, count);
+        root_histogram(seen, count, means, cube.real());
+        std::fill_n(cube.imaginary(), kFloats, 0.0f);
         correlate(cube, reference);
         next = describe_peak(cube.real(), next);
         next = describe_peak(cube.imaginary(), next);
-        for (const std::vector<float>& channel : seen)
-            *next++ = static_cast<float>(std::log(std::max(mean(channel, count), 1e-4)));
+        for (const double mean : means)
+            *next++ = static_cast<float>(std::log(std::max(mean, 1e-4)));
     }
     return features;
 }

@@ -112,17 +112,29 @@ HWY_INLINE void multiply_by(V rgb[3], const float gains[3])
         rgb[c] = clamped01(hn::Mul(rgb[c], hn::Set(D(), gains[c])));
 }
 
-HWY_INLINE void undo_gain(V rgb[3], const float scales[3])
+/// How much highlights keep of their own when gains are undone: 0 in all else.
+HWY_INLINE V kept_share(const V rgb[3])
 {
     const D d;
-    const V one = hn::Set(d, 1.0f), knee = hn::Set(d, 0.9f), ten = hn::Set(d, 10.0f), third = hn::Set(d, 1.0f / 3);
+    const V knee = hn::Set(d, 0.9f), ten = hn::Set(d, 10.0f), third = hn::Set(d, 1.0f / 3);
     const V grey = hn::Mul(hn::Add(hn::Add(rgb[0], rgb[1]), rgb[2]), third);
     const V above = clamped01(hn::Mul(hn::Sub(grey, knee), ten));
-    const V m = hn::Mul(above, above), rest = hn::Sub(one, m);
-    for (int c = 0; c < 3; ++c) {
-        const V s = hn::Set(d, scales[c]);
-        rgb[c] = hn::Mul(rgb[c], hn::Max(hn::MulAdd(rest, s, m), s));
-    }
+    return hn::Mul(above, above);
+}
+
+/// What a value is multiplied with when a gain of 1 / scale is undone.
+HWY_INLINE V undoing_factor(V kept, float scale)
+{
+    const D d;
+    const V s = hn::Set(d, scale);
+    return hn::Max(hn::MulAdd(hn::Sub(hn::Set(d, 1.0f), kept), s, kept), s);
+}
+
+HWY_INLINE void undo_gain(V rgb[3], const float scales[3])
+{
+    const V kept = kept_share(rgb);
+    for (int c = 0; c < 3; ++c)
+        rgb[c] = hn::Mul(rgb[c], undoing_factor(kept, scales[c]));
 }
 
 HWY_INLINE void rebuild_clipped(V rgb[3], const float balance[3], float gain)
@@ -162,15 +174,15 @@ template<class Body> HWY_INLINE void for_each_rgb(Planes in, Planes out, std::si
     });
 }
 
-HWY_INLINE void run_power(Planes in, Planes out, std::size_t count, float exponent, float floor, float offset)
+HWY_INLINE void run_power(Planes in, Planes out, std::size_t count, float exponent, float floor)
 {
     const D d;
     const SplitExponent e(exponent);
-    const V lowest = hn::Set(d, floor), shift = hn::Set(d, offset);
+    const V lowest = hn::Set(d, floor);
     for (int c = 0; c < 3; ++c)
         for_each_vector(count, [&](std::size_t x) {
             const V v = hn::Max(hn::LoadU(d, in.plane(c) + x), lowest);
-            hn::StoreU(hn::Add(pow_of(v, e), shift), d, out.plane(c) + x);
+            hn::StoreU(pow_of(v, e), d, out.plane(c) + x);
         });
 }
 
@@ -180,7 +192,7 @@ HWY_INLINE void run_power(Planes in, Planes out, std::size_t count, float expone
 
 HWY_INLINE void run_after_tone_map(const ColorBlocks& blocks, Planes in, Planes out, std::size_t count)
 {
-    run_power(in, out, count, blocks.exponent, kPowerFloor, 0);
+    run_power(in, out, count, blocks.exponent, kPowerFloor);
     for_each_rgb(out, out, count, [&](V rgb[3]) {
         transform_color(rgb, blocks.color);
         undo_gain(rgb, blocks.white_balance);
@@ -201,7 +213,7 @@ HWY_INLINE void run_before_tone_map(const ColorBlocks& blocks, Planes in, Planes
         }
         transform_color(rgb, blocks.color);
     });
-    run_power(out, out, count, blocks.exponent, kPowerFloor, 0);
+    run_power(out, out, count, blocks.exponent, kPowerFloor);
 }
 
 } // namespace HWY_NAMESPACE

@@ -77,7 +77,7 @@ static void rebuild_highlights(Planes in, Planes out, std::size_t count, const f
 
 void after_tone_map(const ColorBlocks& blocks, Planes in, Planes out, std::size_t count)
 {
-    scalar::power(in, out, count, blocks.exponent, kPowerFloor, 0);
+    scalar::power(in, out, count, blocks.exponent, kPowerFloor);
     scalar::color_transform(out, out, count, blocks.color);
     scalar::inverse_gain(out, out, count, blocks.white_balance);
     scalar::inverse_gain(out, out, count, blocks.gain);
@@ -94,7 +94,7 @@ void before_tone_map(const ColorBlocks& blocks, Planes in, Planes out, std::size
         multiply(out, out, count, blocks.white_balance);
     }
     scalar::color_transform(out, out, count, blocks.color);
-    scalar::power(out, out, count, blocks.exponent, kPowerFloor, 0);
+    scalar::power(out, out, count, blocks.exponent, kPowerFloor);
 }
 
 } // namespace scalar

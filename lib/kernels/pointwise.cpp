@@ -25,9 +25,9 @@ void clamp01(Planes in, Planes out, std::size_t count)
             count, [&](std::size_t x) { hn::StoreU(clamped01(hn::LoadU(d, in.plane(c) + x)), d, out.plane(c) + x); });
 }
 
-void power(Planes in, Planes out, std::size_t count, float exponent, float floor, float offset)
+void power(Planes in, Planes out, std::size_t count, float exponent, float floor)
 {
-    run_power(in, out, count, exponent, floor, offset);
+    run_power(in, out, count, exponent, floor);
 }
 
 void color_transform(Planes in, Planes out, std::size_t count, const Matrix3& matrix)
@@ -38,6 +38,28 @@ void color_transform(Planes in, Planes out, std::size_t count, const Matrix3& ma
 void inverse_gain(Planes in, Planes out, std::size_t count, const float scales[3])
 {
     for_each_rgb(in, out, count, [&](V rgb[3]) { undo_gain(rgb, scales); });
+}
+
+void power_of_inverse_gain(Planes in, Planes powers, Planes out, std::size_t count, const float scales[3],
+                           float exponent, float floor)
+{
+    const D d;
+    const SplitExponent e(exponent);
+    const V lowest = pow_of(hn::Set(d, floor), e);
+    V plain_factors[3];
+    for (int c = 0; c < 3; ++c)
+        plain_factors[c] = pow_of(hn::Set(d, scales[c]), e);
+    for_each_vector(count, [&](std::size_t x) {
+        V rgb[3];
+        for (int c = 0; c < 3; ++c)
+            rgb[c] = hn::LoadU(d, in.plane(c) + x);
+        const V kept = kept_share(rgb);
+        const bool highlights = !hn::AllFalse(d, hn::Gt(kept, hn::Zero(d)));
+        for (int c = 0; c < 3; ++c) {
+            const V factor = highlights ? pow_of(undoing_factor(kept, scales[c]), e) : plain_factors[c];
+            hn::StoreU(hn::Max(hn::Mul(hn::LoadU(d, powers.plane(c) + x), factor), lowest), d, out.plane(c) + x);
+        }
+    });
 }
 
 void split_channels(const float* rgb, Planes out, std::size_t count)
@@ -79,6 +101,7 @@ HWY_EXPORT(clamp01);
 HWY_EXPORT(power);
 HWY_EXPORT(color_transform);
 HWY_EXPORT(inverse_gain);
+HWY_EXPORT(power_of_inverse_gain);
 HWY_EXPORT(split_channels);
 HWY_EXPORT(join_channels);
 
@@ -86,9 +109,9 @@ void clamp01(Planes in, Planes out, std::size_t count)
 {
     HWY_DYNAMIC_DISPATCH(clamp01)(in, out, count);
 }
-void power(Planes in, Planes out, std::size_t count, float exponent, float floor, float offset)
+void power(Planes in, Planes out, std::size_t count, float exponent, float floor)
 {
-    HWY_DYNAMIC_DISPATCH(power)(in, out, count, exponent, floor, offset);
+    HWY_DYNAMIC_DISPATCH(power)(in, out, count, exponent, floor);
 }
 void color_transform(Planes in, Planes out, std::size_t count, const Matrix3& matrix)
 {
@@ -97,6 +120,11 @@ void color_transform(Planes in, Planes out, std::size_t count, const Matrix3& ma
 void inverse_gain(Planes in, Planes out, std::size_t count, const float scales[3])
 {
     HWY_DYNAMIC_DISPATCH(inverse_gain)(in, out, count, scales);
+}
+void power_of_inverse_gain(Planes in, Planes powers, Planes out, std::size_t count, const float scales[3],
+                           float exponent, float floor)
+{
+    HWY_DYNAMIC_DISPATCH(power_of_inverse_gain)(in, powers, out, count, scales, exponent, floor);
 }
 void split_channels(const float* rgb, Planes out, std::size_t count)
 {
@@ -114,11 +142,11 @@ static float clamped01(float v)
     return std::min(std::max(v, 0.0f), 1.0f);
 }
 
-void power(Planes in, Planes out, std::size_t count, float exponent, float floor, float offset)
+void power(Planes in, Planes out, std::size_t count, float exponent, float floor)
 {
     for (int c = 0; c < 3; ++c)
         for (std::size_t x = 0; x < count; ++x)
-            out.plane(c)[x] = std::pow(std::max(in.plane(c)[x], floor), exponent) + offset;
+            out.plane(c)[x] = std::pow(std::max(in.plane(c)[x], floor), exponent);
 }
 
 void color_transform(Planes in, Planes out, std::size_t count, const Matrix3& m)

@@ -3,24 +3,26 @@
 
 namespace srisp {
 
+// All points of a plane at once, of which few share a block with what lies behind them: a row alone fills one block and
+// a half.
 void ToneTable::fill_plane(const PixelToneMap& tone_map, int red)
 {
     constexpr float step = 1.0f / (kSide - 1);
-    float row[3][kSide + kRowSlack] = {};
-    const Planes planes{ row[0], kSide + kRowSlack };
-    float* point = m_values.get() + std::size_t(red) * kSide * kSide * kStride;
-    for (int green = 0; green < kSide; ++green) {
-        for (int blue = 0; blue < kSide; ++blue) {
-            row[0][blue] = red * step;
-            row[1][blue] = green * step;
-            row[2][blue] = blue * step;
+    constexpr std::size_t points = std::size_t(kSide) * kSide, stride = points + kRowSlack;
+    float colors[3][stride] = {};
+    for (int green = 0, at = 0; green < kSide; ++green)
+        for (int blue = 0; blue < kSide; ++blue, ++at) {
+            colors[0][at] = red * step;
+            colors[1][at] = green * step;
+            colors[2][at] = blue * step;
         }
-        tone_map_pixels(tone_map, planes, planes, kSide);
-        for (int blue = 0; blue < kSide; ++blue, point += kStride) {
-            for (int c = 0; c < 3; ++c)
-                point[c] = row[c][blue];
-            point[3] = 0;
-        }
+    const Planes planes{ colors[0], stride };
+    tone_map_pixels(tone_map, planes, planes, points);
+    float* point = m_values.get() + red * points * kStride;
+    for (std::size_t at = 0; at < points; ++at, point += kStride) {
+        for (int c = 0; c < 3; ++c)
+            point[c] = colors[c][at];
+        point[3] = 0;
     }
 }
 

@@ -16,6 +16,7 @@ namespace srisp {
 namespace {
 
 constexpr int kBandPixels = 1 << 18; // 3 MB of RGB
+constexpr int kPartsOfSmallPhotos = 4;
 
 } // namespace
 
@@ -33,7 +34,7 @@ PhotoReader::PhotoReader(PixelSource& source, int subimage, int miplevel, const 
       m_height(spec.height), m_channels(spec.nchannels), m_orientation(spec.get_int_attribute("Orientation", 1)),
       m_threads(threads)
 {
-    m_band_rows = rows_in_tiles(std::max(kBandPixels / std::max(m_width, 1), 1), spec);
+    m_band_rows = rows_in_tiles(rows_of_part(kBandPixels, spec, kPartsOfSmallPhotos), spec);
 }
 
 std::shared_ptr<PhotoRows> PhotoReader::make_room(int y0, int y1)

@@ -12,7 +12,7 @@ namespace srisp {
 
 namespace {
 
-constexpr std::size_t kBandsKept = 2;
+constexpr int kBandsKept = 2; // all of a small image
 
 /// Rows of one band, in whole tiles. Where neighbours count, some rows above and below each band are computed twice, so
 /// it has as many as a few megabytes hold; elsewhere as many as the caches hold from one step to the next.
@@ -23,8 +23,8 @@ int band_rows(const OIIO::ImageSpec& spec, int halo)
     };
     constexpr Limits kAlone{ 16, 1 << 12, 3 << 17 }, kWithNeighbours{ 32, 256, 2 << 20 };
     const Limits& limits = halo > 0 ? kWithNeighbours : kAlone;
-    const int rows = std::clamp(limits.pixels / std::max(spec.width, 1), limits.least_rows, limits.most_rows);
-    return rows_in_tiles(rows, spec);
+    const std::int64_t rows = rows_of_part(limits.pixels, spec, halo > 0 ? 1 : kBandsKept);
+    return rows_in_tiles(std::clamp<std::int64_t>(rows, limits.least_rows, limits.most_rows), spec);
 }
 
 } // namespace
@@ -82,7 +82,7 @@ Expected<std::shared_ptr<const BandReader::Band>> BandReader::band(int index)
     if (auto found = kept(index))
         return found;
     const std::size_t row = std::size_t(m_width) * m_channels;
-    m_last.resize(std::min(m_last.size(), kBandsKept - 1)); // memory of the last one serves again
+    m_last.resize(std::min<std::size_t>(m_last.size(), kBandsKept - 1)); // memory of the last one serves again
     const auto made =
         std::make_shared<Band>(Band{ index, m_memory.floats(row * (end_of(index) - index * m_band_rows)) });
     if (const Status computed = compute(index, { made->values.get(), row }); !computed)

@@ -5,32 +5,17 @@
 #include <cmath>
 #include <functional>
 
-#include "features/lanes.h"
+#include "features/sums.h"
 #include "kernels/strided_convolution.h"
 
 namespace srisp {
-
-/// Σ a · b; in sums side by side, so that compilers vectorise them and none waits for the one before.
-SRISP_WIDE_LANES static double product(const float* a, const float* b, int count)
-{
-    double sums[kLanes] = {};
-    int i = 0;
-    for (; i + kLanes <= count; i += kLanes)
-        for (int k = 0; k < kLanes; ++k)
-            sums[k] += static_cast<double>(a[i + k]) * b[i + k];
-    for (; i < count; ++i)
-        sums[0] += static_cast<double>(a[i]) * b[i];
-    for (int k = 1; k < kLanes; ++k)
-        sums[0] += sums[k];
-    return sums[0];
-}
 
 std::vector<float> transformed(const DenseLayer& layer, const std::vector<float>& x)
 {
     std::vector<float> y(layer.bias);
     for (int o = 0; o < layer.outputs; ++o)
         y[o] = static_cast<float>(
-            layer.bias[o] + product(layer.weight.data() + std::ptrdiff_t(o) * layer.inputs, x.data(), layer.inputs));
+            layer.bias[o] + product_of(layer.weight.data() + std::ptrdiff_t(o) * layer.inputs, x.data(), layer.inputs));
     return y;
 }
 

@@ -15,7 +15,7 @@ class PlanarThumbnail {
 public:
     PlanarThumbnail() = default; ///< of no pixels
     explicit PlanarThumbnail(int size) : m_size(size), m_values(3 * (count() + kRowSlack)) {}
-    /// A thumbnail reduced to `size` × `size` by exact area means.
+    /// A thumbnail reduced to `size` × `size` by area means.
     PlanarThumbnail(const Thumbnail& thumbnail, int size);
 
     int size() const { return m_size; }
@@ -28,12 +28,19 @@ private:
     std::vector<float> m_values;
 };
 
-enum class Scale { display, linear };
+/// How encoders see linear light: max(v, floor)^exponent, then an offset added.
+struct EncoderScale {
+    float exponent, floor, offset;
+};
 
-/// An image as three of an encoder's inputs [method 2]: brought to a like scale, unless the model wants it plain.
-void add_to_input(EncoderInput& input, int first_channel, const PlanarThumbnail& image, Scale scale, bool perceptual);
+/// Brings it to a scale like that of displayed images [method 2], unless the model wants it plain.
+EncoderScale linear_scale(bool perceptual);
+
+/// Three of an encoder's inputs: values that already have the encoder's exponent.
+void add_to_input(EncoderInput& input, int first_channel, Planes values, float offset);
 
 /// The image as an encoder's only input.
-EncoderInput encoder_input(const PlanarThumbnail& image, Scale scale, bool perceptual);
+EncoderInput display_input(const PlanarThumbnail& image, bool perceptual);
+EncoderInput linear_input(const PlanarThumbnail& image, bool perceptual);
 
 } // namespace srisp

@@ -26,9 +26,8 @@ ReferenceFeatures reference_features(const ModelData& model, const Thumbnail& re
     const PlanarThumbnail image(reference, model.selection_size);
     const LinearImage linear(image);
     ReferenceFeatures features;
-    static_cast<ImageFeatures&>(features) =
-        image_features(model, model.reference_encoder, model.reference_statistics,
-                       encoder_input(image, Scale::linear, model.perceptual_encoder_input), linear);
+    static_cast<ImageFeatures&>(features) = image_features(model, model.reference_encoder, model.reference_statistics,
+                                                           linear_input(image, model.perceptual_encoder_input), linear);
     features.model_hash = model.hash;
     if (!model.anchor_network.empty())
         features.match.emplace(linear.small);

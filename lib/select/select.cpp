@@ -6,10 +6,20 @@
 #include <srisp/model.h>
 
 #include "base/guarded.h"
+#include "features/lanes.h"
 #include "model/model_data.h"
 #include "select/selection.h"
 
 namespace srisp {
+
+/// How many are not within 0 … 1.
+SRISP_WIDE_LANES static int count_outside(const float* values, std::size_t count)
+{
+    int outside = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        outside += !(values[i] >= 0.0f) | !(values[i] <= 1.0f);
+    return outside;
+}
 
 static Status check_thumbnail(const Thumbnail& thumbnail, const char* which)
 {
@@ -18,10 +28,7 @@ static Status check_thumbnail(const Thumbnail& thumbnail, const char* which)
     if (thumbnail.rgb.size() != count)
         return Error{ std::string("the ") + which + " thumbnail has " + std::to_string(thumbnail.rgb.size()) +
                       " values, needs " + std::to_string(count) };
-    int count_of_bad = 0;
-    for (const float v : thumbnail.rgb) // all of them: compilers vectorise that
-        count_of_bad += !(v >= 0.0f) | !(v <= 1.0f);
-    if (count_of_bad == 0)
+    if (count_outside(thumbnail.rgb.data(), count) == 0)
         return {};
     const auto bad = std::find_if(thumbnail.rgb.begin(), thumbnail.rgb.end(), is_bad);
     const std::size_t pixel = (bad - thumbnail.rgb.begin()) / 3;

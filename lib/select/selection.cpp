@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "apply/tone_map.h"
 #include "features/match_features.h"
+#include "features/sums.h"
+#include "kernels/color_blocks.h"
 #include "select/layers.h"
 #include "select/trained_range.h"
 
@@ -20,7 +23,7 @@ public:
     Selection(const ModelData& model, const Thumbnail& source, const ReferenceFeatures& reference,
               std::vector<std::string>* notes, SelectionTrace* trace)
         : m_model(model), m_running(source, model.selection_size), m_reference(reference), m_notes(notes),
-          m_trace(trace)
+          m_trace(trace), m_scale(linear_scale(model.perceptual_encoder_input))
     {
     }
 
@@ -37,6 +40,7 @@ public:
     }
 
 private:
+    /// Writes an atom's reverse output, with the encoder's exponent.
     using Candidate = std::function<void(int atom, Planes out)>;
 
     void note(PlanarThumbnail SelectionTrace::*step)
@@ -46,17 +50,14 @@ private:
     }
 
     /// The photo, before the first block has changed it.
-    EncoderInput display_input() const
-    {
-        return encoder_input(m_running, Scale::display, m_model.perceptual_encoder_input);
-    }
+    EncoderInput photo_input() const { return display_input(m_running, m_model.perceptual_encoder_input); }
 
     void encode_images()
     {
         PlanarThumbnail linear_image(m_running.size());
-        power(m_running.planes(), linear_image.planes(), m_running.count(), 2.2f, 1e-8f, 0);
+        power(m_running.planes(), linear_image.planes(), m_running.count(), 2.2f, kPowerFloor);
         const LinearImage linear(linear_image);
-        m_source = image_features(m_model, m_model.source_encoder, m_model.source_statistics, display_input(), linear);
+        m_source = image_features(m_model, m_model.source_encoder, m_model.source_statistics, photo_input(), linear);
         if (m_reference.match)
             m_match = match_features(linear.small, *m_reference.match);
         m_fused = transformed(m_model.fuse, concatenated(m_source.encoded, m_reference.encoded));
@@ -84,14 +85,14 @@ private:
         PlanarThumbnail out(m_running.size());
         for (int atom = 0; atom < m_model.dictionary_size; ++atom) {
             candidate(atom, out.planes());
-            add_to_input(input, 3 * atom, out, Scale::linear, m_model.perceptual_encoder_input);
+            add_to_input(input, 3 * atom, out.planes(), m_scale.offset);
         }
         return weights(block, 0, encode(block.encoder, std::move(input)));
     }
 
     void choose_tone()
     {
-        const std::vector<float> features = encode(m_model.tone.encoder, display_input());
+        const std::vector<float> features = encode(m_model.tone.encoder, photo_input());
         for (int l = 0; l < kToneLayers; ++l)
             m_parameters.tone_weights[l] = weights(m_model.tone, l, features);
         apply_tone_map();
@@ -122,15 +123,15 @@ private:
 
     void choose_gamma()
     {
-        const auto apply = [&](float gamma, Planes out) {
-            power(m_running.planes(), out, m_running.count(), gamma, 1e-8f, 0);
-        };
-        m_parameters.gamma_weights =
-            candidate_weights(m_model.gamma, [&](int atom, Planes out) { apply(m_model.gamma_atoms[atom], out); });
+        const Planes running = m_running.planes();
+        m_parameters.gamma_weights = candidate_weights(m_model.gamma, [&](int atom, Planes out) {
+            const float gamma = m_model.gamma_atoms[atom], darkest = std::pow(m_scale.floor, 1 / gamma);
+            power(running, out, m_running.count(), gamma * m_scale.exponent, std::max(kPowerFloor, darkest));
+        });
         m_parameters.gamma = 0;
         for (int k = 0; k < m_model.dictionary_size; ++k)
             m_parameters.gamma += m_parameters.gamma_weights[k] * m_model.gamma_atoms[k];
-        apply(m_parameters.gamma, m_running.planes());
+        power(running, running, m_running.count(), m_parameters.gamma, kPowerFloor);
         note(&SelectionTrace::after_gamma);
     }
 
@@ -139,8 +140,10 @@ private:
         const auto apply = [&](const Matrix3& color, Planes out) {
             color_transform(m_running.planes(), out, m_running.count(), inverse(color));
         };
-        m_parameters.color_weights =
-            candidate_weights(m_model.color, [&](int atom, Planes out) { apply(m_model.color_atoms[atom], out); });
+        m_parameters.color_weights = candidate_weights(m_model.color, [&](int atom, Planes out) {
+            apply(m_model.color_atoms[atom], out);
+            power(out, out, m_running.count(), m_scale.exponent, m_scale.floor);
+        });
         m_parameters.color.fill(0);
         for (int k = 0; k < m_model.dictionary_size; ++k)
             for (int i = 0; i < 9; ++i)
@@ -192,51 +195,61 @@ private:
             return;
         const std::vector<float> log_means = this->log_means();
         for (int c = 0; c < 3; ++c) {
-            const float* values = m_running.planes().plane(c);
-            double sum = 0;
-            for (std::size_t i = 0; i < m_running.count(); ++i)
-                sum += values[i];
-            m_base_gain[c] =
-                static_cast<float>(std::max(sum / m_running.count(), 1e-3) / std::exp(double(log_means[c])));
+            const double mean = sum_of(m_running.planes().plane(c), m_running.count()) / m_running.count();
+            m_base_gain[c] = static_cast<float>(std::max(mean, 1e-3) / std::exp(double(log_means[c])));
         }
         if (m_trace)
             m_trace->base_gain = m_base_gain;
     }
 
+    using Gains = std::array<float, 3>;
+
+    /// Weights of a block that undoes gains: `gains(atom)`.
+    std::vector<float> gain_weights(const BlockSelector& block, const std::function<Gains(int atom)>& gains)
+    {
+        PlanarThumbnail powers(m_running.size());
+        power(m_running.planes(), powers.planes(), m_running.count(), m_scale.exponent,
+              std::numeric_limits<float>::min());
+        return candidate_weights(block, [&](int atom, Planes out) {
+            const Gains scales = scales_of(gains(atom));
+            power_of_inverse_gain(m_running.planes(), powers.planes(), out, m_running.count(), scales.data(),
+                                  m_scale.exponent, m_scale.floor);
+        });
+    }
+
+    static Gains scales_of(const Gains& gains) { return { 1 / gains[0], 1 / gains[1], 1 / gains[2] }; }
+
+    void undo_gains(const Gains& gains)
+    {
+        inverse_gain(m_running.planes(), m_running.planes(), m_running.count(), scales_of(gains).data());
+    }
+
     void choose_white_balance()
     {
         const float red = m_base_gain[0] / m_base_gain[1], blue = m_base_gain[2] / m_base_gain[1];
-        const auto apply = [&](const std::array<float, 3>& gains, Planes out) {
-            const float scales[] = { 1 / gains[0], 1 / gains[1], 1 / gains[2] };
-            inverse_gain(m_running.planes(), out, m_running.count(), scales);
-        };
         const auto product = [&](const std::array<float, 2>& atom) {
             const float r = atom[0] * red, b = atom[1] * blue;
             const float one = m_model.white_stays_white ? std::min({ r, 1.0f, b }) : 1.0f;
-            return std::array<float, 3>{ r / one, 1 / one, b / one };
+            return Gains{ r / one, 1 / one, b / one };
         };
-        m_parameters.white_balance_weights = candidate_weights(m_model.white_balance, [&](int atom, Planes out) {
-            apply(product(m_model.white_balance_atoms[atom]), out);
-        });
+        m_parameters.white_balance_weights =
+            gain_weights(m_model.white_balance, [&](int atom) { return product(m_model.white_balance_atoms[atom]); });
         std::array<float, 2> mixed{};
         for (int k = 0; k < m_model.dictionary_size; ++k)
             for (int i = 0; i < 2; ++i)
                 mixed[i] += m_parameters.white_balance_weights[k] * m_model.white_balance_atoms[k][i];
         m_parameters.white_balance = product(mixed);
         keep_in_trained_range(m_parameters.white_balance, m_notes);
-        apply(m_parameters.white_balance, m_running.planes());
+        undo_gains(m_parameters.white_balance);
         note(&SelectionTrace::after_white_balance);
     }
 
     void choose_gain()
     {
         const float base = m_base_gain[1] / m_parameters.white_balance[1];
-        const auto apply = [&](float gain, Planes out) {
-            const float scales[] = { 1 / gain, 1 / gain, 1 / gain };
-            inverse_gain(m_running.planes(), out, m_running.count(), scales);
-        };
+        const auto alike = [](float gain) { return Gains{ gain, gain, gain }; };
         m_parameters.gain_weights =
-            candidate_weights(m_model.gain, [&](int atom, Planes out) { apply(m_model.gain_atoms[atom] * base, out); });
+            gain_weights(m_model.gain, [&](int atom) { return alike(m_model.gain_atoms[atom] * base); });
         float mixed = 0;
         for (int k = 0; k < m_model.dictionary_size; ++k)
             mixed += m_parameters.gain_weights[k] * m_model.gain_atoms[k];
@@ -244,7 +257,7 @@ private:
         keep_in_trained_range(m_parameters.gain, m_notes);
         if (!m_trace)
             return;
-        apply(m_parameters.gain, m_running.planes());
+        undo_gains(alike(m_parameters.gain));
         clamp01(m_running.planes(), m_running.planes(), m_running.count());
         note(&SelectionTrace::after_gain);
     }
@@ -254,6 +267,7 @@ private:
     const ReferenceFeatures& m_reference;
     std::vector<std::string>* m_notes;
     SelectionTrace* m_trace;
+    EncoderScale m_scale;
     ImageFeatures m_source;
     std::array<float, kMatchFeatures> m_match{};
     std::vector<float> m_fused;

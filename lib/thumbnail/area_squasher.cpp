@@ -33,8 +33,8 @@ static std::vector<AxisCoverage::Share> by_cell(std::vector<AxisCoverage::Share>
 
 AreaSquasher::AreaSquasher(int width, int height, int size)
     : m_width(width), m_height(height), m_size(size), m_columns(by_cell(axis_coverage(width, size).shares)),
-      m_rows(axis_coverage(height, size)), m_lines(std::size_t(size) * 3 * kRowsAtOnce),
-      m_sums(std::size_t(size) * size * 3)
+      m_rows(axis_coverage(height, size)), m_lines(std::size_t(size) * 3 * kRowsAtOnce), m_sums(std::size_t(size) * 3),
+      m_rgb(std::size_t(size) * size * 3)
 {
 }
 
@@ -60,14 +60,24 @@ template<int Rows> static void squash_rows(const std::vector<AxisCoverage::Share
 
 void AreaSquasher::add_line(const double* line)
 {
-    const std::size_t values = std::size_t(m_size) * 3;
     for (int i = m_rows.first_share[m_next_row]; i < m_rows.first_share[m_next_row + 1]; ++i) {
         const AxisCoverage::Share& share = m_rows.shares[i];
-        double* sums = m_sums.data() + share.cell * values;
-        for (std::size_t k = 0; k < values; ++k)
-            sums[k] += share.length * line[k];
+        if (share.cell != m_row_of_cells)
+            finish_cells();
+        for (std::size_t k = 0; k < m_sums.size(); ++k)
+            m_sums[k] += share.length * line[k];
     }
-    ++m_next_row;
+    if (++m_next_row == m_height)
+        finish_cells();
+}
+
+void AreaSquasher::finish_cells()
+{
+    const double cell_area = (m_width / double(m_size)) * (m_height / double(m_size));
+    std::transform(m_sums.begin(), m_sums.end(), m_rgb.begin() + std::ptrdiff_t(m_sums.size()) * m_row_of_cells,
+                   [&](double sum) { return static_cast<float>(sum / cell_area); });
+    std::fill(m_sums.begin(), m_sums.end(), 0.0);
+    ++m_row_of_cells;
 }
 
 void AreaSquasher::add_rows(ImageView rows)
@@ -87,14 +97,10 @@ void AreaSquasher::add_rows(ImageView rows)
 
 std::vector<float> AreaSquasher::finish(int orientation) const
 {
-    const double cell_area = (m_width / double(m_size)) * (m_height / double(m_size));
-    std::vector<float> rgb(m_sums.size());
-    std::transform(m_sums.begin(), m_sums.end(), rgb.begin(),
-                   [&](double sum) { return static_cast<float>(sum / cell_area); });
-    return oriented_square(rgb, m_size, orientation);
+    return oriented_square(m_rgb, m_size, orientation);
 }
 
-std::vector<float> oriented_square(const std::vector<float>& rgb, int size, int orientation)
+std::vector<float> oriented_square(std::vector<float> rgb, int size, int orientation)
 {
     if (orientation < 2 || orientation > 8)
         return rgb;

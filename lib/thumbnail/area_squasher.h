@@ -35,16 +35,18 @@ public:
 private:
     static constexpr int kRowsAtOnce = 4;
     void add_line(const double* line);
+    void finish_cells();
 
-    int m_width, m_height, m_size, m_next_row = 0;
+    int m_width, m_height, m_size, m_next_row = 0, m_row_of_cells = 0;
     std::vector<AxisCoverage::Share> m_columns; ///< in order of the cells
     AxisCoverage m_rows;
     std::vector<double> m_lines; ///< some input rows, squashed
-    std::vector<double> m_sums;  ///< of shares, over the whole image
+    std::vector<double> m_sums;  ///< of shares, in the row of cells that the next row of pixels lies in
+    std::vector<float> m_rgb;    ///< the cells above it
 };
 
 /// Turns a size × size image (interleaved RGB) upright: what an EXIF `orientation` (others than 1 … 8 are taken as 1)
 /// asks for.
-std::vector<float> oriented_square(const std::vector<float>& rgb, int size, int orientation);
+std::vector<float> oriented_square(std::vector<float> rgb, int size, int orientation);
 
 } // namespace srisp

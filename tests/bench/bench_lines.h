@@ -17,7 +17,7 @@ using BenchLines = std::vector<BenchLine>;
 
 /// What all parts of the benchmark are told.
 struct BenchSettings {
-    std::string model = "spatial";
+    std::string model = "default";
     double megapixels = 24;
     int threads = 0;   ///< main() makes 0 the number of OpenImageIO's threads
     std::string photo; ///< empty: a synthetic one

@@ -136,3 +136,15 @@ TEST_CASE("rows to be read at a time are whole tiles, and no more than there are
     CHECK(rows_in_tiles(1, tiled(16, 0x7ffffff0)) == 48);
     CHECK(rows_in_tiles(10, OIIO::ImageSpec(64, 48, 3)) == 10);
 }
+
+TEST_CASE("a small image is read in parts, a large one by so many pixels, and always by one row at least")
+{
+    const auto rows = [](int width, int height, int parts) {
+        return rows_of_part(300000, OIIO::ImageSpec(width, height, 3), parts);
+    };
+    CHECK(rows(640, 480, 4) == 120);
+    CHECK(rows(640, 481, 2) == 241); // not three parts
+    CHECK(rows(6000, 4000, 4) == 50);
+    CHECK(rows(100, 80, 4) == 163); // all of a tiny one
+    CHECK(rows(400000, 9, 4) == 1);
+}

@@ -31,7 +31,7 @@ TEST_CASE("power is within 1e-6 (relative) of the exact value for every exponent
                     c < 2 ? std::exp(-18.42f + 21.4f * (x + 0.5f * c) / in.count) : 0.9f + 0.2f * x / in.count;
         on_each_instruction_set([&] {
             TestPlanes out{ in.count };
-            power(in.planes(), out.planes(), in.count, exponent, 1e-8f, 0);
+            power(in.planes(), out.planes(), in.count, exponent, 1e-8f);
             double largest = 0;
             for (int c = 0; c < 3; ++c)
                 for (std::size_t x = 0; x < in.count; ++x) {
@@ -50,7 +50,7 @@ TEST_CASE("power takes what lies below the floor as the floor, and one and zero 
     TestPlanes in{ 3 }, out{ 3 };
     for (int c = 0; c < 3; ++c)
         std::copy_n(std::vector<float>{ -1, 0, 1 }.data(), 3, in.planes().plane(c));
-    power(in.planes(), out.planes(), 3, 2.2f, 1e-8f, 0);
+    power(in.planes(), out.planes(), 3, 2.2f, 1e-8f);
     CHECK(out.planes().plane(0)[0] == out.planes().plane(0)[1]);
     CHECK(out.planes().plane(0)[0] == doctest::Approx(2.5118864e-18).epsilon(1e-5));
     CHECK(out.planes().plane(2)[2] == 1.0f);
@@ -90,4 +90,32 @@ TEST_CASE("interleaved pixels go to planes and back, and nothing past the last i
             CHECK(std::equal(rgb.begin(), rgb.end(), back.begin()));
             CHECK(back[3 * count] == -1.0f);
         });
+}
+
+TEST_CASE("powers of undone gains, from the image's own powers, are those of the blocks one after another")
+{
+    const float scales[] = { 0.4f, 1.0f, 1.9f }, exponent = 1 / 2.2f, floor = 1e-5f;
+    for (const float brightest : { 0.8f, 1.3f }) // without highlights, and with
+        check_same(
+            0, brightest, 3e-6,
+            [&](Planes in, Planes out, std::size_t count) {
+                TestPlanes powers{ count };
+                power(in, powers.planes(), count, exponent, 1e-30f);
+                power_of_inverse_gain(in, powers.planes(), out, count, scales, exponent, floor);
+            },
+            [&](Planes in, Planes out, std::size_t count) {
+                scalar::inverse_gain(in, out, count, scales);
+                scalar::power(out, out, count, exponent, floor);
+            });
+}
+
+TEST_CASE("powers of undone gains end at that of the floor")
+{
+    const float scales[] = { 0.5f, 0.5f, 0.5f };
+    TestPlanes in{ 2 }, powers{ 2 }, out{ 2 };
+    in.planes().plane(0)[1] = 1e-5f; // halved it is below the floor; the rest is 0
+    power(in.planes(), powers.planes(), 2, 1 / 2.2f, 1e-30f);
+    power_of_inverse_gain(in.planes(), powers.planes(), out.planes(), 2, scales, 1 / 2.2f, 1e-5f);
+    for (const float value : out.used())
+        CHECK(value == doctest::Approx(std::pow(1e-5, 1 / 2.2)).epsilon(1e-6));
 }
