@@ -99,27 +99,24 @@ void take_anchor_of(const std::string& name, Unprocessor& model)
         fail("anchor_fit.from: model '" + name + "' " + status.error().message);
 }
 
-/// Nothing where the model has no anchor to fit.
-std::optional<AnchorFit> fit(Session& session, Host& host, const AnchorFitSettings& settings, bool quiet, bool restart,
-                             const StillThere& still_there)
+/// Fills the pairs; the fit to them.
+AnchorFit fit(Session& session, Host& host, AnchorPairs& pairs, const AnchorFitSettings& settings, bool quiet,
+              bool restart, const StillThere& still_there)
 {
-    std::optional<AnchorPairs> pairs = pairs_for_anchor(*session.model, settings);
-    if (!pairs)
-        return {};
-    KeptPairs kept(session, host, *pairs);
+    KeptPairs kept(session, host, pairs);
     if (!restart)
         kept.find();
     {
-        ProgressMeter meter({ "srisptrain: for the anchor", "pairs", pairs->wanted(), pairs->made() }, !quiet);
-        while (!pairs->complete()) {
-            pairs->make_more(*session.samples);
-            meter.show(pairs->made());
+        ProgressMeter meter({ "srisptrain: for the anchor", "pairs", pairs.wanted(), pairs.made() }, !quiet);
+        while (!pairs.complete()) {
+            pairs.make_more(*session.samples);
+            meter.show(pairs.made());
             require(still_there());
             kept.while_it_lasts(meter);
         }
     }
     ProgressMeter meter({ "srisptrain: fitting the anchor", "%", 100 }, !quiet);
-    return fit_anchor(*session.model, *pairs, settings, static_cast<std::uint64_t>(session.settings().seed),
+    return fit_anchor(*session.model, pairs, settings, static_cast<std::uint64_t>(session.settings().seed),
                       [&](double part) {
                           meter.show(static_cast<std::int64_t>(part * 100));
                           require(still_there());
@@ -136,14 +133,32 @@ void say(Host& host, const AnchorFit& fit)
     host.note(text);
 }
 
-/// Whether the validation is better with the new anchor.
-bool helps(Host& host, const Validation& with, const Validation& without)
+/// Of the anchors between the old one and the one that was carried on from it, the best in validation.
+void take_best_mix(Session& session, Host& host, Unprocessor& before, const Validation& without,
+                   const StillThere& still_there)
 {
-    char text[160];
-    std::snprintf(text, sizeof text, "validation: %.2f dB and %.2f deg with it, %.2f dB and %.2f deg without",
-                  with.psnr, with.angle, without.psnr, without.angle);
-    host.note(text);
-    return with.score > without.score;
+    const std::shared_ptr<Unprocessor> after = session.another();
+    require(take_anchor(*after, *session.model));
+    double best_share = 0, best_score = without.score;
+    const auto say_one = [&host](double share, const Validation& validation) {
+        char text[160];
+        std::snprintf(text, sizeof text, "validation: %.2f dB and %.2f deg with %.0f %% of the new anchor",
+                      validation.psnr, validation.angle, 100 * share);
+        host.note(text);
+    };
+    say_one(0, without);
+    for (const double share : { 0.25, 0.5, 0.75, 1.0 }) {
+        mix_anchors(*session.model, before, *after, share);
+        const Validation validation = *host.validate(*session.model, still_there);
+        say_one(share, validation);
+        if (validation.score > best_score) {
+            best_score = validation.score;
+            best_share = share;
+        }
+    }
+    mix_anchors(*session.model, before, *after, best_share);
+    if (best_share == 0)
+        host.note("the model's own anchor stays");
 }
 
 } // namespace
@@ -167,21 +182,21 @@ void start_anchor(Session& session, Host& host, bool quiet, bool restart, const 
             take_anchor_of(wanted.from, *session.model);
         return;
     }
+    std::optional<AnchorPairs> pairs = pairs_for_anchor(*session.model, *settings);
+    if (!pairs)
+        return;
     std::shared_ptr<Unprocessor> before;
     std::optional<Validation> without;
     if (settings->carry_on) {
         before = session.another();
-        if (take_anchor(*before, *session.model))
-            without = host.validate(*session.model, still_there);
+        require(take_anchor(*before, *session.model));
+        without = host.validate(*session.model, still_there);
     }
-    const std::optional<AnchorFit> done = fit(session, host, *settings, quiet, restart, still_there);
-    if (!done)
+    say(host, fit(session, host, *pairs, *settings, quiet, restart, still_there));
+    if (!without)
         return;
-    say(host, *done);
-    if (!without || helps(host, *host.validate(*session.model, still_there), *without))
-        return;
-    host.note("the model's own anchor stays");
-    require(take_anchor(*session.model, *before));
+    take_best_mix(session, host, *before, *without, still_there);
+    fit_anchor_deviation(*session.model, *pairs, static_cast<std::uint64_t>(recipe.seed));
 }
 
 } // namespace srisp::tool

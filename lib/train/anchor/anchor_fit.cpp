@@ -168,21 +168,55 @@ std::optional<AnchorPairs> pairs_for_anchor(Unprocessor& model, const AnchorFitS
     return AnchorPairs(settings.pairs, network->anchor_network() != nullptr);
 }
 
+void mix_anchors(Unprocessor& model, Unprocessor& first, Unprocessor& second, double share)
+{
+    const std::vector<torch::Tensor> to = model.anchor_parameters(), a = first.anchor_parameters(),
+                                     b = second.anchor_parameters();
+    const torch::NoGradGuard no_gradient;
+    for (std::size_t i = 0; i < to.size(); ++i)
+        torch::Tensor(to[i]).copy_(torch::lerp(a[i], b[i], share));
+}
+
+namespace {
+
+/// The last tenth of the pairs is left out of the fit.
+std::int64_t fitted_of(const AnchorPairs& pairs)
+{
+    return pairs.made() - pairs.made() / 10;
+}
+
+Rows rows_of(const AnchorPairs& pairs, std::int64_t begin, std::int64_t end)
+{
+    return { pairs.inputs().slice(0, begin, end), pairs.means().slice(0, begin, end) };
+}
+
+AnchorFit own_line(Unprocessor& model)
+{
+    const std::vector<torch::Tensor> anchor = model.anchor_parameters();
+    AnchorFit line;
+    line.weight = anchor[0].detach().cpu();
+    line.bias = anchor[1].detach().cpu();
+    return line;
+}
+
+/// What the network corrects, less what it should.
+torch::Tensor errors_of(AnchorNetwork& network, const torch::Tensor& line_errors, const torch::Tensor& inputs)
+{
+    const torch::NoGradGuard no_gradient;
+    return line_errors.to(inputs.device()) + network.forward(inputs);
+}
+
+} // namespace
+
 AnchorFit fit_anchor(Unprocessor& model, const AnchorPairs& pairs, const AnchorFitSettings& settings,
                      std::uint64_t seed, const std::function<void(double)>& progress)
 {
     auto& network = dynamic_cast<Network&>(model);
     AnchorNetwork* const correction = network.anchor_network();
-    const std::int64_t count = pairs.made(), fitted = count - count / 10;
-    const auto slice = [&pairs](std::int64_t begin, std::int64_t end) -> Rows {
-        return { pairs.inputs().slice(0, begin, end), pairs.means().slice(0, begin, end) };
-    };
-    const Rows rows = slice(0, fitted), tested = slice(fitted, count);
+    const Rows rows = rows_of(pairs, 0, fitted_of(pairs)), tested = rows_of(pairs, fitted_of(pairs), pairs.made());
     AnchorFit fit;
     if (settings.carry_on) {
-        const std::vector<torch::Tensor> anchor = model.anchor_parameters();
-        fit.weight = anchor[0].detach().cpu();
-        fit.bias = anchor[1].detach().cpu();
+        fit = own_line(model);
     } else {
         fit = fit_line(rows.inputs.slice(1, 0, kAnchorStatistics), rows.log_means(), settings.ridge);
         network.set_anchor(fit.weight, fit.bias);
@@ -192,20 +226,31 @@ AnchorFit fit_anchor(Unprocessor& model, const AnchorPairs& pairs, const AnchorF
 
     torch::Tensor error = line_of(fit, tested.inputs) - tested.log_means();
     fit.line_deviation = root_mean_square(error);
-    if (correction) {
-        const torch::Tensor inputs = tested.inputs.to(model.parameters().front().device());
-        torch::Tensor hidden;
-        {
-            const torch::NoGradGuard no_gradient;
-            hidden = correction->hidden(inputs);
-            error = error.to(inputs.device()) + correction->forward(inputs);
-        }
-        fit_deviation(*network.anchor_deviation(), hidden, error.mean(1), seed);
-    }
+    if (correction)
+        error = errors_of(*correction, error, tested.inputs.to(model.parameters().front().device()));
+    fit_anchor_deviation(model, pairs, seed);
     fit.deviation = root_mean_square(error);
     fit.gain_match_deviation =
         root_mean_square(2 * tested.inputs.slice(1, kStatistics, kStatistics + 3) - 2 - tested.log_means());
     return fit;
+}
+
+void fit_anchor_deviation(Unprocessor& model, const AnchorPairs& pairs, std::uint64_t seed)
+{
+    auto& network = dynamic_cast<Network&>(model);
+    AnchorNetwork* const correction = network.anchor_network();
+    if (!correction)
+        return;
+    const Rows tested = rows_of(pairs, fitted_of(pairs), pairs.made());
+    const torch::Tensor inputs = tested.inputs.to(model.parameters().front().device());
+    const torch::Tensor line_errors = line_of(own_line(model), tested.inputs) - tested.log_means();
+    const torch::Tensor error = errors_of(*correction, line_errors, inputs);
+    torch::Tensor hidden;
+    {
+        const torch::NoGradGuard no_gradient;
+        hidden = correction->hidden(inputs);
+    }
+    fit_deviation(*network.anchor_deviation(), hidden, error.mean(1), seed);
 }
 
 } // namespace srisp::train

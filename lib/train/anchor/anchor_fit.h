@@ -82,6 +82,11 @@ AnchorFit fit_line(const torch::Tensor& statistics, const torch::Tensor& log_mea
 /// Gives `model` the anchor of another, of whatever kernel size. An error where either has none or theirs differ.
 Status take_anchor(Unprocessor& model, Unprocessor& other);
 
+/// Gives `model` an anchor between two others of its kind: each weight (1 − `share`) · first + `share` · second. Where
+/// the second was carried on from the first, such a mix does better than either on what both were meant for. [Wortsman
+/// et al. 2022, Robust fine-tuning of zero-shot models]
+void mix_anchors(Unprocessor& model, Unprocessor& first, Unprocessor& second, double share);
+
 /// The pairs that a fit of the model's anchor takes, none made so far; nothing where it has no anchor, or none that
 /// could be carried on where the settings want that.
 std::optional<AnchorPairs> pairs_for_anchor(Unprocessor& model, const AnchorFitSettings& settings);
@@ -90,5 +95,9 @@ std::optional<AnchorPairs> pairs_for_anchor(Unprocessor& model, const AnchorFitS
 /// learns from where it is. `progress` gets the part that is done, 0 … 1. `seed`: of the network's batches.
 AnchorFit fit_anchor(Unprocessor& model, const AnchorPairs& pairs, const AnchorFitSettings& settings,
                      std::uint64_t seed, const std::function<void(double)>& progress = {});
+
+/// Fits how sure the model's anchor is to the pairs that fit_anchor leaves out; fit_anchor has done so already, but
+/// not for an anchor that was mixed since. Nothing where the anchor has no network.
+void fit_anchor_deviation(Unprocessor& model, const AnchorPairs& pairs, std::uint64_t seed);
 
 } // namespace srisp::train
