@@ -233,6 +233,22 @@ TEST_CASE("a model takes another's anchor, of whatever kernel size; not one of a
     CHECK(status.error().message == "has an anchor of another kind than the recipe's model");
 }
 
+TEST_CASE("anchors are mixed weight by weight")
+{
+    ModelSettings settings;
+    Network first(settings, 1), second(settings, 2), mixed(settings, 3);
+    {
+        const torch::NoGradGuard no_gradient;
+        for (torch::Tensor parameter : first.anchor_parameters())
+            parameter.fill_(1);
+        for (torch::Tensor parameter : second.anchor_parameters())
+            parameter.fill_(3);
+    }
+    mix_anchors(mixed, first, second, 0.25);
+    for (const torch::Tensor& parameter : mixed.anchor_parameters())
+        CHECK(parameter.eq(1.5).all().item<bool>());
+}
+
 /// Bright references tell the RAW's brightness, dark ones leave it within a factor of e^±1.
 class UnsurePairs : public Samples {
 public:
@@ -266,4 +282,28 @@ TEST_CASE("the anchor says how sure it is: as unsure as it errs, and by what it 
     const torch::Tensor dark = batch.reference.mean(at::IntArrayRef{ 1, 2, 3 }) < 0.3;
     CHECK(deviations.masked_select(dark).mean().item<double>() == doctest::Approx(0.5).epsilon(0.15));
     CHECK(deviations.masked_select(dark.logical_not()).mean().item<double>() < 0.1);
+}
+
+TEST_CASE("how sure an anchor is can be fitted again, after it was changed")
+{
+    UnsurePairs samples;
+    AnchorFitSettings settings;
+    settings.pairs = 6000;
+    settings.steps = 600;
+    Network network({}, 1);
+    REQUIRE(start_anchor(network, samples, settings, 5));
+    {
+        const torch::NoGradGuard no_gradient;
+        network.anchor_parameters()[1].add_(1); // e times too bright
+    }
+    std::optional<AnchorPairs> pairs = pairs_for_anchor(network, settings);
+    REQUIRE(pairs);
+    while (!pairs->complete())
+        pairs->make_more(samples);
+    fit_anchor_deviation(network, *pairs, 5);
+    const torch::NoGradGuard no_gradient;
+    const Batch batch = samples.batch(999, 0, 100, 0, 0);
+    ChosenParameters choice;
+    network.reverse(batch.source, batch.reference, &choice);
+    CHECK(choice.log_deviation.exp().mean().item<double>() == doctest::Approx(1.1).epsilon(0.1));
 }
