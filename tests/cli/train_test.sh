@@ -173,7 +173,8 @@ fine_tuned() {
     "$train" finetune --pack pack --init default -o tuned --threads 1 --steps 2 --set data.image_size=32 \
         --set pairs=2 --set validation.set.simulated_images=1 --set anchor_fit.pairs=64 --set anchor_fit.steps=2 \
         >tuned.txt 2>&1 && [ -s tuned/best.safetensors ] &&
-        grep -q "validation: .* dB and .* deg with it, .* without" tuned.txt &&
+        grep -q "validation: .* dB and .* deg with 0 % of the new anchor" tuned.txt &&
+        grep -q "validation: .* dB and .* deg with 100 % of the new anchor" tuned.txt &&
         [ "$(grep -c '"step":0,' tuned/log.jsonl)" = 1 ] || { cat tuned.txt; return 1; }
 }
 check "a finished model is carried on with real RAW images" fine_tuned
