@@ -193,9 +193,8 @@ void start_anchor(Session& session, Host& host, bool quiet, bool restart, const 
         without = host.validate(*session.model, still_there);
     }
     say(host, fit(session, host, *pairs, *settings, quiet, restart, still_there));
-    if (!without)
-        return;
-    take_best_mix(session, host, *before, *without, still_there);
+    if (without)
+        take_best_mix(session, host, *before, *without, still_there);
     fit_anchor_deviation(*session.model, *pairs, static_cast<std::uint64_t>(recipe.seed));
 }
 

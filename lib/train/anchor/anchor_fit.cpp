@@ -228,7 +228,6 @@ AnchorFit fit_anchor(Unprocessor& model, const AnchorPairs& pairs, const AnchorF
     fit.line_deviation = root_mean_square(error);
     if (correction)
         error = errors_of(*correction, error, tested.inputs.to(model.parameters().front().device()));
-    fit_anchor_deviation(model, pairs, seed);
     fit.deviation = root_mean_square(error);
     fit.gain_match_deviation =
         root_mean_square(2 * tested.inputs.slice(1, kStatistics, kStatistics + 3) - 2 - tested.log_means());

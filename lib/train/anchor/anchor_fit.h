@@ -96,8 +96,8 @@ std::optional<AnchorPairs> pairs_for_anchor(Unprocessor& model, const AnchorFitS
 AnchorFit fit_anchor(Unprocessor& model, const AnchorPairs& pairs, const AnchorFitSettings& settings,
                      std::uint64_t seed, const std::function<void(double)>& progress = {});
 
-/// Fits how sure the model's anchor is to the pairs that fit_anchor leaves out; fit_anchor has done so already, but
-/// not for an anchor that was mixed since. Nothing where the anchor has no network.
+/// Fits how sure the model's anchor is to the pairs that fit_anchor leaves out, once the anchor is what it will be.
+/// Nothing where it has no network.
 void fit_anchor_deviation(Unprocessor& model, const AnchorPairs& pairs, std::uint64_t seed);
 
 } // namespace srisp::train
