@@ -7,6 +7,7 @@ namespace srisp {
 
 /// 3×3, row-major; column vectors.
 using Matrix3 = std::array<float, 9>;
+using Vector3 = std::array<float, 3>;
 
 /// Linear sRGB → XYZ, D65. [IEC 61966-2-1]
 constexpr Matrix3 kSrgbToXyz{ 0.4124564f, 0.3575761f, 0.1804375f, 0.2126729f, 0.7151522f,
@@ -28,6 +29,19 @@ inline Matrix3 product(const Matrix3& a, const Matrix3& b)
             for (int k = 0; k < 3; ++k)
                 result[row * 3 + column] += a[row * 3 + k] * b[k * 3 + column];
     return result;
+}
+
+inline Vector3 product(const Matrix3& m, const Vector3& v)
+{
+    Vector3 result;
+    for (int row = 0; row < 3; ++row)
+        result[row] = m[row * 3] * v[0] + m[row * 3 + 1] * v[1] + m[row * 3 + 2] * v[2];
+    return result;
+}
+
+inline Matrix3 diagonal(const Vector3& v)
+{
+    return { v[0], 0, 0, 0, v[1], 0, 0, 0, v[2] };
 }
 
 inline double determinant(const Matrix3& m)

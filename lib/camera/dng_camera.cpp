@@ -39,7 +39,14 @@ private:
     const TiffFolder& m_image;
 };
 
-/// XYZ → camera = analog balance · camera calibration · colour matrix [DNG 1.4, chapter 6].
+/// Whether a matrix changes each channel alone.
+bool is_diagonal(const std::vector<double>& m)
+{
+    return m[1] == 0 && m[2] == 0 && m[3] == 0 && m[5] == 0 && m[6] == 0 && m[7] == 0;
+}
+
+/// XYZ → camera = analog balance · camera calibration · colour matrix [DNG 1.4, chapter 6]. A forward matrix takes
+/// balanced values, which a calibration that is diagonal does not change; others are rare, and have none then.
 void add_color_matrix(const CameraTags& tags, int index, CameraFacts& facts)
 {
     const std::vector<double> color = tags.values(std::uint16_t(kColorMatrix1 + index));
@@ -60,6 +67,9 @@ void add_color_matrix(const CameraTags& tags, int index, CameraFacts& facts)
             matrix.xyz_to_camera[row * 3 + column] = float(sum);
         }
     matrix.illuminant = int(std::clamp(tags.value(std::uint16_t(kCalibrationIlluminant1 + index)), 0.0f, 255.0f));
+    const std::vector<double> forward = tags.values(std::uint16_t(kForwardMatrix1 + index));
+    if (forward.size() == 9 && is_diagonal(calibration))
+        std::copy(forward.begin(), forward.end(), matrix.forward.begin());
     facts.color_matrices.push_back(matrix);
 }
 

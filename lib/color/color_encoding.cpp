@@ -13,9 +13,6 @@ namespace {
 
 namespace Strutil = OIIO::Strutil;
 
-constexpr Chromaticities kAp1{ 0.713f, 0.293f, 0.165f, 0.830f, 0.128f, 0.044f, 0.32168f, 0.33767f };
-constexpr Chromaticities kRec2020{ 0.708f, 0.292f, 0.170f, 0.797f, 0.131f, 0.046f, 0.3127f, 0.3290f };
-constexpr Chromaticities kDisplayP3{ 0.680f, 0.320f, 0.265f, 0.690f, 0.150f, 0.060f, 0.3127f, 0.3290f };
 constexpr Chromaticities kAdobeRgb{ 0.64f, 0.33f, 0.21f, 0.71f, 0.15f, 0.06f, 0.3127f, 0.3290f };
 
 struct Name {
@@ -45,12 +42,12 @@ constexpr Name kNames[] = {
     { "linear - sRGB", Transfer::linear, 1, &kSrgbChromaticities },
     { "ACES2065-1", Transfer::linear, 1, &kAp0Chromaticities },
     { "lin_ap0", Transfer::linear, 1, &kAp0Chromaticities },
-    { "ACEScg", Transfer::linear, 1, &kAp1 },
-    { "lin_ap1", Transfer::linear, 1, &kAp1 },
-    { "lin_rec2020", Transfer::linear, 1, &kRec2020 },
-    { "Linear Rec.2020", Transfer::linear, 1, &kRec2020 },
-    { "lin_p3d65", Transfer::linear, 1, &kDisplayP3 },
-    { "Linear P3-D65", Transfer::linear, 1, &kDisplayP3 },
+    { "ACEScg", Transfer::linear, 1, &kAp1Chromaticities },
+    { "lin_ap1", Transfer::linear, 1, &kAp1Chromaticities },
+    { "lin_rec2020", Transfer::linear, 1, &kRec2020Chromaticities },
+    { "Linear Rec.2020", Transfer::linear, 1, &kRec2020Chromaticities },
+    { "lin_p3d65", Transfer::linear, 1, &kP3D65Chromaticities },
+    { "Linear P3-D65", Transfer::linear, 1, &kP3D65Chromaticities },
     { "lin_adobergb", Transfer::linear, 1, &kAdobeRgb },
     { "Linear AdobeRGB", Transfer::linear, 1, &kAdobeRgb },
 };
@@ -81,10 +78,10 @@ constexpr CicpPrimaries kCicpPrimaries[] = {
     { 6, { 0.630f, 0.340f, 0.310f, 0.595f, 0.155f, 0.070f, 0.3127f, 0.3290f } },
     { 7, { 0.630f, 0.340f, 0.310f, 0.595f, 0.155f, 0.070f, 0.3127f, 0.3290f } },
     { 8, { 0.681f, 0.319f, 0.243f, 0.692f, 0.145f, 0.049f, 0.310f, 0.316f } },
-    { 9, kRec2020 },
+    { 9, kRec2020Chromaticities },
     { 10, { 1, 0, 0, 1, 0, 0, 1.0f / 3, 1.0f / 3 } },
     { 11, { 0.680f, 0.320f, 0.265f, 0.690f, 0.150f, 0.060f, 0.314f, 0.351f } },
-    { 12, kDisplayP3 },
+    { 12, kP3D65Chromaticities },
     { 22, { 0.630f, 0.340f, 0.295f, 0.605f, 0.155f, 0.077f, 0.3127f, 0.3290f } },
 };
 
@@ -135,46 +132,10 @@ double to_linear(const ColorEncoding& encoding, double v)
     return v;
 }
 
-/// XYZ of the colour with this xy and Y = 1.
-std::array<float, 3> xyz_of(float x, float y)
-{
-    return { x / y, 1, (1 - x - y) / y };
-}
-
-std::array<float, 3> times(const Matrix3& m, const std::array<float, 3>& v)
-{
-    std::array<float, 3> result;
-    for (int row = 0; row < 3; ++row)
-        result[row] = m[row * 3] * v[0] + m[row * 3 + 1] * v[1] + m[row * 3 + 2] * v[2];
-    return result;
-}
-
-Matrix3 primaries_of(const Chromaticities& c)
-{
-    // Directions only, so that a y of 0 is allowed.
-    return { c[0], c[2], c[4], c[1], c[3], c[5], 1 - c[0] - c[1], 1 - c[2] - c[3], 1 - c[4] - c[5] };
-}
-
-/// Linear RGB → XYZ, where (1,1,1) is the white with Y = 1.
-Matrix3 rgb_to_xyz(const Chromaticities& c)
-{
-    Matrix3 matrix = primaries_of(c);
-    const std::array<float, 3> amounts = times(inverse(matrix), xyz_of(c[6], c[7]));
-    for (int i = 0; i < 9; ++i)
-        matrix[i] *= amounts[i % 3];
-    return matrix;
-}
-
 /// Linear RGB of the chromaticities → linear sRGB.
 Matrix3 to_linear_srgb(const Chromaticities& from)
 {
-    constexpr Matrix3 bradford{ 0.8951f, 0.2664f, -0.1614f, -0.7502f, 1.7135f, 0.0367f, 0.0389f, -0.0685f, 1.0296f };
-    const auto old_white = times(bradford, xyz_of(from[6], from[7]));
-    const auto new_white = times(bradford, xyz_of(kSrgbChromaticities[6], kSrgbChromaticities[7]));
-    Matrix3 scale{};
-    for (int c = 0; c < 3; ++c)
-        scale[c * 4] = new_white[c] / old_white[c];
-    const Matrix3 adapted = product(inverse(bradford), product(scale, product(bradford, rgb_to_xyz(from))));
+    const Matrix3 adapted = product(adaptation(white_of(from), white_of(kSrgbChromaticities)), rgb_to_xyz(from));
     return row_normalized(product(inverse(rgb_to_xyz(kSrgbChromaticities)), adapted));
 }
 
@@ -222,7 +183,7 @@ bool are_usable(const Chromaticities& c)
     for (const float number : c)
         if (!std::isfinite(number) || std::fabs(number) > 10)
             return false;
-    if (c[6] <= 0 || c[7] <= 0 || std::fabs(determinant(primaries_of(c))) < 1e-4)
+    if (c[6] <= 0 || c[7] <= 0 || std::fabs(determinant(primaries_matrix(c))) < 1e-4)
         return false;
     // White must lie among the primaries, and every colour must have a place in sRGB.
     const Matrix3 matrix = to_linear_srgb(c);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/colorimetry.h"
 #include "color/color_transform.h"
 
 namespace srisp {
@@ -18,13 +19,6 @@ enum class Transfer {
     pq,     ///< SMPTE ST 2084
     hlg     ///< BT.2100 hybrid log-gamma
 };
-
-/// CIE xy of red, green, blue and white, as EXR's `chromaticities` and PNG's cHRM have them.
-using Chromaticities = std::array<float, 8>;
-
-constexpr Chromaticities kSrgbChromaticities{ 0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f };
-/// ACES2065-1 [SMPTE ST 2065-1], which EXR files of the ACES container hold.
-constexpr Chromaticities kAp0Chromaticities{ 0.7347f, 0.2653f, 0.0f, 1.0f, 0.0001f, -0.077f, 0.32168f, 0.33767f };
 
 /// How an RGB image stores colour, where no profile says it.
 struct ColorEncoding {

@@ -108,6 +108,11 @@ void set_camera_tags(const CameraFacts& facts, TiffFolderBytes& folder, std::vec
         folder.set_signed_rationals(std::uint16_t(kColorMatrix1 + i), { matrix.begin(), matrix.end() });
         folder.set_shorts(std::uint16_t(kCalibrationIlluminant1 + i), { std::uint32_t(matrices[i].illuminant) });
     }
+    const auto has_forward = [](const ColorMatrix& m) { return m.forward != decltype(m.forward){}; };
+    if (std::all_of(matrices.begin(), matrices.end(), has_forward)) // readers take both or none
+        for (std::size_t i = 0; i < matrices.size(); ++i)
+            folder.set_signed_rationals(std::uint16_t(kForwardMatrix1 + i),
+                                        { matrices[i].forward.begin(), matrices[i].forward.end() });
     CameraFacts written;
     written.color_matrices = matrices;
     const std::array<float, 3> neutral = written_neutral(facts, *written.daylight_matrix(), notes);

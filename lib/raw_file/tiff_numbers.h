@@ -66,6 +66,7 @@ enum : std::uint16_t {
     kBaselineExposure = 50730,
     kCalibrationIlluminant1 = 50778,
     kActiveArea = 50829,
+    kForwardMatrix1 = 50964,
     kPreviewColorSpace = 50970,
     kOpcodeList1 = 51008,
     kOpcodeList2 = 51009,

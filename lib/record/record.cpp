@@ -37,9 +37,11 @@ const char kAsShotNeutral[] = "unprocess:reference_as_shot_neutral";
 const char kReferenceNoiseProfile[] = "unprocess:reference_noise_profile";
 /// The daylight matrix, and one for another light.
 constexpr struct {
-    const char *matrix, *illuminant;
-} kMatrices[] = { { "unprocess:xyz_to_camera", "unprocess:xyz_to_camera_illuminant" },
-                  { "unprocess:xyz_to_camera2", "unprocess:xyz_to_camera2_illuminant" } };
+    const char *matrix, *illuminant, *forward;
+} kMatrices[] = {
+    { "unprocess:xyz_to_camera", "unprocess:xyz_to_camera_illuminant", "unprocess:forward_matrix" },
+    { "unprocess:xyz_to_camera2", "unprocess:xyz_to_camera2_illuminant", "unprocess:forward_matrix2" }
+};
 
 OIIO::TypeDesc floats(std::size_t count)
 {
@@ -154,6 +156,8 @@ void write_camera(OIIO::ImageSpec& spec, const CameraFacts& facts)
             spec.attribute(kMatrices[i].matrix, OIIO::TypeMatrix33, matrix->xyz_to_camera.data());
             if (matrix->illuminant)
                 spec.attribute(kMatrices[i].illuminant, matrix->illuminant);
+            if (matrix->forward != decltype(matrix->forward){})
+                spec.attribute(kMatrices[i].forward, OIIO::TypeMatrix33, matrix->forward.data());
         }
 }
 
@@ -185,6 +189,7 @@ CameraFacts recorded_camera(const OIIO::ImageSpec& spec)
         CameraFacts::ColorMatrix matrix;
         if (spec.getattribute(names.matrix, OIIO::TypeMatrix33, matrix.xyz_to_camera.data())) {
             matrix.illuminant = spec.get_int_attribute(names.illuminant);
+            spec.getattribute(names.forward, OIIO::TypeMatrix33, matrix.forward.data());
             facts.color_matrices.push_back(matrix);
         }
     }

@@ -36,6 +36,7 @@ public:
     {
         add(matrix.xyz_to_camera);
         add(matrix.illuminant);
+        add(matrix.forward);
     }
 
     std::string take() { return std::move(m_bytes); }
@@ -89,6 +90,7 @@ public:
     {
         add(matrix.xyz_to_camera);
         add(matrix.illuminant);
+        add(matrix.forward);
     }
 
     bool whole() const { return !m_failed && m_at == m_bytes.size(); }

@@ -19,10 +19,11 @@ struct CameraFacts {
     float white_level = 0;
     /// Whether the levels are those of samples of 8 to 16 bits: references of floats have a white of 1.
     SRISP_API bool has_integer_levels() const;
-    /// XYZ → camera RGB, row-major 3×3, with the EXIF LightSource code of its calibration illuminant (0: not known).
+    /// For one calibration light. Matrices are row-major, 3×3.
     struct ColorMatrix {
-        std::array<float, 9> xyz_to_camera;
-        int illuminant = 0;
+        std::array<float, 9> xyz_to_camera; ///< XYZ → camera RGB
+        int illuminant = 0;                 ///< EXIF LightSource code of the light
+        std::array<float, 9> forward{};     ///< DNG's forward matrix: balanced camera RGB → XYZ under D50
     };
     std::vector<ColorMatrix> color_matrices;
     /// The matrix for D65, else the first one; null where there is none.
