@@ -109,16 +109,15 @@ std::optional<Recipe> recipe_of_frame(const QueryName& parts)
 Expected<OpenedName> open_recipe(const Recipe& recipe, const OIIO::ImageSpec& config)
 {
     const std::string kind = recipe.direction == Direction::forward ? "image" : "photo";
-    const OIIO::ImageSpec hints = reading_hints(recipe, config);
     if (parse_name(recipe.source))
         return Error{ kind + " '" + recipe.source + "': a recipe cannot be made from a recipe" };
     if (recipe.action == Recipe::Action::read) {
-        auto file = ImageFile::open(recipe.source, hints, kind + " '" + recipe.source + "'");
+        auto file = ImageFile::open(recipe.source, reading_hints(recipe, config), kind + " '" + recipe.source + "'");
         if (!file)
             return file.error();
         return OpenedName{ nullptr, std::move(*file), recipe.notes };
     }
-    auto source = open_file_source(recipe.source, kind, hints);
+    auto source = open_recipe_source(recipe, config);
     if (!source)
         return source.error();
     return opened(open_computed_image(recipe, std::move(*source), config, process_state().results));

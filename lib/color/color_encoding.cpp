@@ -7,6 +7,8 @@
 
 #include <OpenImageIO/strutil.h>
 
+#include "base/scene_linear_space.h"
+
 namespace srisp {
 
 namespace {
@@ -35,19 +37,6 @@ constexpr Name kNames[] = {
     { "Linear", Transfer::linear, 1, nullptr },
     { "scene_linear", Transfer::linear, 1, nullptr },
     { "rendering", Transfer::linear, 1, nullptr },
-    { "lin_srgb", Transfer::linear, 1, &kSrgbChromaticities },
-    { "lin_rec709", Transfer::linear, 1, &kSrgbChromaticities },
-    { "Utility - Linear - sRGB", Transfer::linear, 1, &kSrgbChromaticities },
-    { "Linear Rec.709 (sRGB)", Transfer::linear, 1, &kSrgbChromaticities },
-    { "linear - sRGB", Transfer::linear, 1, &kSrgbChromaticities },
-    { "ACES2065-1", Transfer::linear, 1, &kAp0Chromaticities },
-    { "lin_ap0", Transfer::linear, 1, &kAp0Chromaticities },
-    { "ACEScg", Transfer::linear, 1, &kAp1Chromaticities },
-    { "lin_ap1", Transfer::linear, 1, &kAp1Chromaticities },
-    { "lin_rec2020", Transfer::linear, 1, &kRec2020Chromaticities },
-    { "Linear Rec.2020", Transfer::linear, 1, &kRec2020Chromaticities },
-    { "lin_p3d65", Transfer::linear, 1, &kP3D65Chromaticities },
-    { "Linear P3-D65", Transfer::linear, 1, &kP3D65Chromaticities },
     { "lin_adobergb", Transfer::linear, 1, &kAdobeRgb },
     { "Linear AdobeRGB", Transfer::linear, 1, &kAdobeRgb },
 };
@@ -148,6 +137,11 @@ std::optional<NamedEncoding> named_encoding(const std::string& name)
             return NamedEncoding{ { known.transfer, known.gamma,
                                     known.chromaticities ? *known.chromaticities : kSrgbChromaticities },
                                   known.chromaticities != nullptr };
+    const SceneLinearSpace* const space = find_scene_linear_space(name);
+    if (space && !(space->white == white_of(space->chromaticities)))
+        return {}; // XYZ: no RGB
+    if (space)
+        return NamedEncoding{ { Transfer::linear, 1, space->chromaticities }, true };
     if (const auto gamma = gamma_in_name(name))
         return NamedEncoding{ { Transfer::power, *gamma, kSrgbChromaticities }, false };
     return {};

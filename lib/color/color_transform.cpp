@@ -70,6 +70,26 @@ private:
     Matrix3 m_matrix;
 };
 
+class PlainMatrix : public ColorTransform {
+public:
+    explicit PlainMatrix(const Matrix3& matrix) : m_matrix(matrix) {}
+    bool takes_unbounded() const override { return true; }
+    std::int64_t apply(float* rgb, std::int64_t pixels) const override
+    {
+        std::int64_t clipped = 0;
+        for (float* p = rgb; p != rgb + pixels * 3; p += 3) {
+            const Vector3 values = product(m_matrix, Vector3{ p[0], p[1], p[2] });
+            std::copy(values.begin(), values.end(), p);
+            for (int c = 0; c < 3; ++c)
+                clipped += clip(p[c]);
+        }
+        return clipped;
+    }
+
+private:
+    Matrix3 m_matrix;
+};
+
 } // namespace
 
 CurveTable::CurveTable(const std::function<double(double)>& curve) : m_samples(kSteps + 1)
@@ -98,6 +118,11 @@ ColorTransformPtr curves_and_matrix(std::array<CurveTable, 3> to_linear, const M
 ColorTransformPtr linear_matrix(const Matrix3& to_linear_srgb)
 {
     return std::make_shared<LinearMatrix>(to_linear_srgb);
+}
+
+ColorTransformPtr plain_matrix(const Matrix3& matrix)
+{
+    return std::make_shared<PlainMatrix>(matrix);
 }
 
 bool is_identity(const ColorTransform& transform, int channels)

@@ -16,7 +16,7 @@ float srgb_encoded(float linear);
 /// The way back; values in [0,1].
 float srgb_decoded(float encoded);
 
-/// Colours as an image stores them → display-encoded sRGB. Immutable.
+/// Colours as an image stores them → display-encoded sRGB, or camera RGB. Immutable.
 class ColorTransform {
 public:
     virtual ~ColorTransform() = default;
@@ -59,6 +59,9 @@ ColorTransformPtr curves_and_matrix(std::array<CurveTable, 3> to_linear, const M
 
 /// Linear light of any size, then a matrix to linear sRGB.
 ColorTransformPtr linear_matrix(const Matrix3& to_linear_srgb);
+
+/// Linear light of any size, then a matrix to linear values in [0,1]; nothing is encoded.
+ColorTransformPtr plain_matrix(const Matrix3& matrix);
 
 /// Whether no colour moves by three quarters of an 8-bit step: the commonest sRGB profile (Hewlett-Packard's of 1998,
 /// whose numbers are rounded) moves pure green by 0.51. `channels`: of colour in the image, 1 or 3.

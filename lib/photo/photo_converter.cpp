@@ -8,6 +8,7 @@
 
 #include "color/color_reading.h"
 #include "container/file_description.h"
+#include "develop/undo_matrix.h"
 #include "photo/code_values.h"
 #include "photo/color_channels.h"
 #include "record/record.h"
@@ -162,6 +163,13 @@ Expected<PhotoConverter> PhotoConverter::create(const OIIO::ImageSpec& spec, Inp
     if (encoding == InputEncoding::automatic && is_unprocessed(spec))
         return Error{ where + ": is a RAW-like image already (srisp made it); input=srgb takes it for a photo" };
     ColorReading reading = reading_of(spec, encoding, static_cast<int>(channels->color.size()));
+    if (const std::string recorded = recorded_development(spec);
+        encoding == InputEncoding::camera && !recorded.empty()) {
+        const auto development = development_from_json(recorded, where);
+        if (!development)
+            return development.error();
+        reading.transform = plain_matrix(undo_matrix(*development));
+    }
     state->transform = std::move(reading.transform);
     state->notes = note_list(spec);
     state->notes.insert(state->notes.end(), reading.notes.begin(), reading.notes.end());

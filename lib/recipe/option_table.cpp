@@ -6,8 +6,10 @@
 #include <charconv>
 
 #include "base/near_names.h"
+#include "base/scene_linear_space.h"
 #include "base/shown_text.h"
 #include "recipe/brightness.h"
+#include "recipe/white_balance.h"
 
 namespace srisp {
 
@@ -54,6 +56,16 @@ const std::vector<Option>& option_table()
         { "noise_seed", kProgram | kQuery | files, T::number, &Recipe::noise_seed, {}, "0", "", "" },
         { "seed", kNoise, T::number, &Recipe::noise_seed, {}, "0", "N",
           "with the photo's name it says which noise is added" },
+        { "develop", kProgram | kQuery | files, T::space, &Recipe::develop, {}, "", "", "" },
+        { "whitebalance", kProgram | kQuery | files | kDevelop, T::white_balance, &Recipe::white_balance, {}, "scene",
+          "WHITE", "what becomes white: what is white in the photo (of a camera's file as-shot), reference: what was in "
+          "the reference's light; or a light as KELVIN or KELVIN,TINT, or multipliers R,G,B" },
+        { "exposure", kProgram | kQuery | files | kDevelop, T::exposure, &Recipe::exposure, {}, "0", "EV",
+          "brighter by that much; at 0 a white at which the first channel saturates is 1" },
+        { "highlights", kProgram | kQuery | files | kDevelop, T::choice, &Recipe::highlights,
+          { "clip", "blend", "keep" }, "clip", "HOW",
+          "of clipped highlights: clip makes them white at 1, blend keeps their brightness, keep everything, so that "
+          "they turn magenta" },
         { "allow_partial", kProgram | kQuery | files, T::flag, &Recipe::allow_partial, {}, "0", "", "" },
         { "isolate", kProgram | kQuery | files, T::flag, &Recipe::isolate, {}, "1", "", "" },
         { "direction", kQuery | files, T::choice, &Recipe::direction, { "reverse", "forward" }, "reverse", "", "" },
@@ -62,7 +74,7 @@ const std::vector<Option>& option_table()
         { "progress", files, T::flag, &Recipe::progress, {}, "0", "", "" },
         { "notes", files, T::flag, &Recipe::notes, {}, "0", "", "" },
         { "command", files, T::text, &Recipe::command, {}, "", "", "" },
-        { "action", files, T::choice, &Recipe::action, { "apply", "print", "save", "read", "sensor" }, "apply", "", "" },
+        { "action", files, T::choice, &Recipe::action, { "apply", "print", "save", "read", "sensor", "develop" }, "apply", "", "" },
         { "file", kJob, T::text, &Recipe::file, {}, "", "", "" },
         { "name", kJob, T::text, &Recipe::name, {}, "", "", "" },
     };
@@ -114,10 +126,29 @@ Expected<nlohmann::json> option_value(const Option& option, const std::string& t
     if (option.type == OptionType::brightness)
         if (const auto brightness = parse_brightness(text); !brightness)
             return brightness.error();
+    if (option.type == OptionType::white_balance)
+        if (const auto balance = parse_white_balance(text); !balance)
+            return balance.error();
+    if (option.type == OptionType::exposure)
+        if (const auto exposure = parse_exposure(text); !exposure)
+            return exposure.error();
+    if (option.type == OptionType::space)
+        if (const Status known = check_space(text); !known)
+            return known.error();
     if (option.type == OptionType::choice)
         if (const auto index = choice_index(option, text); !index)
             return index.error();
     return nlohmann::json(text);
+}
+
+Status check_space(const std::string& name)
+{
+    if (name.empty() || find_scene_linear_space(name))
+        return {};
+    std::vector<std::string> known;
+    for (const SceneLinearSpace& space : scene_linear_spaces())
+        known.push_back(space.name);
+    return Error{ "unknown scene-linear colour space '" + shown_text(name) + "'" + near_names(name, known) };
 }
 
 Expected<std::size_t> choice_index(const Option& option, const std::string& name)

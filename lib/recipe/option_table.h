@@ -23,7 +23,8 @@ enum Door : unsigned {
     kParams = 64,
     kMosaic = 128,
     kNoise = 256,
-    kCommands = kUnprocess | kProcess | kParams | kMosaic | kNoise
+    kDevelop = 512,
+    kCommands = kUnprocess | kProcess | kParams | kMosaic | kNoise | kDevelop
 };
 
 /// How an option's value is read.
@@ -36,14 +37,17 @@ enum class OptionType {
     choice,     ///< one of the option's values
     flag,       ///< true or false; 0 or 1 in a text
     number,     ///< whole, of 64 bits
-    brightness  ///< a number of EV, or sample
+    brightness, ///< a number of EV, or sample
+    space,      ///< a scene-linear colour space by one of its names
+    white_balance,
+    exposure ///< a number of EV
 };
 
 using OptionTarget =
     std::variant<std::string Recipe::*, std::vector<std::string> Recipe::*, std::optional<Parameters> Recipe::*,
                  bool Recipe::*, std::uint64_t Recipe::*, Direction Recipe::*, InputEncoding Recipe::*,
                  GainMapUse Recipe::*, Precision Recipe::*, std::optional<Mosaic> Recipe::*, Levels Recipe::*,
-                 Recipe::Action Recipe::*, std::optional<Brightness> Recipe::*>;
+                 Recipe::Action Recipe::*, std::optional<Brightness> Recipe::*, WhiteBalance Recipe::*, double Recipe::*, Highlights Recipe::*>;
 
 /// One option: all that recipes, queries, hints, srisptool and its help know of it.
 struct Option {
@@ -62,6 +66,9 @@ const std::vector<Option>& option_table();
 /// Null: there is none that this door takes; near_names of option_keys is for the message.
 const Option* find_option(Door door, const std::string& key);
 std::vector<std::string> option_keys(Door door);
+
+/// Whether a scene-linear colour space is known; empty is. The error lists near ones, or all.
+Status check_space(const std::string& name);
 
 /// What an option of a command is called in a job.
 const char* job_key(const Option& option);

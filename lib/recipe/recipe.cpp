@@ -14,6 +14,7 @@
 #include "recipe/brightness.h"
 #include "recipe/option_table.h"
 #include "recipe/reference_pattern.h"
+#include "recipe/white_balance.h"
 
 namespace srisp {
 
@@ -53,6 +54,8 @@ Status take(std::string& target, const Option& option, const json& value, const 
     if (!value.is_string())
         return Error{ "must be a string" };
     target = value.get<std::string>();
+    if (option.type == OptionType::space)
+        return check_space(target);
     // A model is a name unless it looks like a path [Model::load].
     const bool is_path = option.type == OptionType::path ||
                          (option.type == OptionType::model &&
@@ -148,15 +151,32 @@ Status take(std::optional<Mosaic>& target, const Option& option, const json& val
     return taken;
 }
 
-Status take(std::optional<Brightness>& target, const Option&, const json& value, const Place&)
+/// A number, or a text of one kind that `parse` reads.
+template<class Value, class Parse>
+Status take_parsed(Value& target, const json& value, const char* kind, const Parse& parse)
 {
     if (!value.is_string() && !value.is_number())
-        return Error{ "must be a number of EV or \"sample\"" };
-    const auto brightness = parse_brightness(value.is_string() ? value.get<std::string>() : value.dump());
-    if (!brightness)
-        return brightness.error();
-    target = *brightness;
+        return Error{ std::string("must be ") + kind };
+    const auto parsed = parse(value.is_string() ? value.get<std::string>() : value.dump());
+    if (!parsed)
+        return parsed.error();
+    target = *parsed;
     return {};
+}
+
+Status take(std::optional<Brightness>& target, const Option&, const json& value, const Place&)
+{
+    return take_parsed(target, value, "a number of EV or \"sample\"", parse_brightness);
+}
+
+Status take(WhiteBalance& target, const Option&, const json& value, const Place&)
+{
+    return take_parsed(target, value, "a temperature or a string", parse_white_balance);
+}
+
+Status take(double& target, const Option&, const json& value, const Place&)
+{
+    return take_parsed(target, value, "a number of EV", parse_exposure);
 }
 
 Status set_value(Recipe& recipe, const Option& option, const json& value, const Place& place)
@@ -214,7 +234,7 @@ Expected<Recipe> recipe_from_json(const std::string& text, const std::string& pa
     if (const Status format = check_format(object); !format)
         return Error{ where + ": " + format.error().message };
     if (!is_job && (recipe.action == Recipe::Action::print || recipe.action == Recipe::Action::save))
-        return Error{ where + ": 'action': a recipe can apply, read or sensor" };
+        return Error{ where + ": 'action': a recipe can apply, read, sensor or develop" };
     if (!is_job && recipe.source.empty())
         return Error{ where + ": has no 'source'" };
     return recipe;
@@ -247,6 +267,12 @@ Status check_complete(const Recipe& recipe, const std::string& where)
         return Error{ where + ": mosaic and noise are for RAW-like images, not for processed ones" };
     if (recipe.brightness && (recipe.direction == Direction::forward || !selects))
         return Error{ where + ": brightness is for photos that become RAW-like images" };
+    if (recipe.direction == Direction::forward && !recipe.develop.empty())
+        return Error{ where + ": RAW-like images are developed, not processed ones" };
+    if (recipe.mosaic && !recipe.develop.empty())
+        return Error{ where + ": a mosaic is not developed" };
+    if (recipe.action == Recipe::Action::develop && recipe.develop.empty())
+        return Error{ where + ": names no colour space to develop into" };
     if (recipe.action == Recipe::Action::sensor && !senses)
         return Error{ where + ": names neither mosaic nor noise" };
     if (selects && recipe.direction == Direction::reverse && recipe.references.empty() && !recipe.parameters)

@@ -17,7 +17,8 @@ struct Recipe : Options {
         print, ///< the parameters that would be applied
         save,  ///< the parameters recorded in the image
         read,  ///< gives the source as it is, its description put right
-        sensor ///< only mosaic and noise: the source is RAW-like already
+        sensor, ///< only mosaic and noise: the source is RAW-like already
+        develop ///< only development: the source is RAW-like, or a camera's RAW file
     };
 
     std::string source; ///< path of the photo; empty in a job whose pixels come by hand-over; a frame pattern in

@@ -43,6 +43,7 @@ bool describes_source(OIIO::string_view name)
                                                           "crs:",
                                                           "chromaticities",
                                                           "CICP",
+                                                          "colorInteropID",
                                                           "acesImageContainerFlag",
                                                           "openexr:acesImageContainerFlag",
                                                           "heif:",
@@ -96,7 +97,7 @@ void mark_result(OIIO::ImageSpec& spec, Direction direction)
     if (reverse)
         set(spec, attribute::kColorSpace, kCameraColorSpace);
     set(spec, attribute::kSynthetic, synthetic_mark(direction));
-    write_record(spec, { direction, "", description, "" });
+    write_record(spec, { direction, "", description, "", "" });
 }
 
 void record_result(OIIO::ImageSpec& spec, const Parameters& parameters, const CameraFacts* camera, Direction direction)
@@ -116,7 +117,7 @@ void record_result(OIIO::ImageSpec& spec, const Parameters& parameters, const Ca
                 set_adopted_neutral(spec, matrix->xyz_to_camera, neutral);
         }
     }
-    write_record(spec, { direction, to_json(parameters, -1), own_description(spec), "" });
+    write_record(spec, { direction, to_json(parameters, -1), own_description(spec), "", "" });
 }
 
 Expected<Parameters> recorded_parameters(const OIIO::ImageSpec& spec, const std::string& where)

@@ -85,6 +85,9 @@ std::string format_record(const RecordLine& record)
     if (!record.sensor.empty())
         if (auto sensor = parse_json<ordered_json>(record.sensor))
             line["sensor"] = std::move(*sensor);
+    if (!record.development.empty())
+        if (auto development = parse_json<ordered_json>(record.development))
+            line["development"] = std::move(*development);
     if (!record.description.empty())
         line["description"] = record.description;
     return line.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
@@ -105,7 +108,8 @@ std::optional<RecordLine> find_record(const std::string& text)
     };
     return RecordLine{ text_of("direction") == "forward" ? Direction::forward : Direction::reverse,
                        line.contains("parameters") ? line["parameters"].dump() : "", text_of("description"),
-                       line.contains("sensor") ? line["sensor"].dump() : "" };
+                       line.contains("sensor") ? line["sensor"].dump() : "",
+                       line.contains("development") ? line["development"].dump() : "" };
 }
 
 std::optional<RecordLine> read_record(const OIIO::ImageSpec& spec)
@@ -120,6 +124,25 @@ void write_record(OIIO::ImageSpec& spec, const RecordLine& record)
     spec.attribute("ImageDescription", line);
     // Captions get edited; EXR keeps this one as well.
     spec.attribute(attribute::kRecord, line);
+}
+
+void record_development(OIIO::ImageSpec& spec, const SceneLinearSpace& space, const std::string& development)
+{
+    if (auto record = read_record(spec)) {
+        record->development = development;
+        write_record(spec, *record);
+        spec.attribute(attribute::kColorSpace, space.name);
+    }
+    spec.attribute("oiio:ColorSpace", space.name);
+    spec.attribute("colorInteropID", space.interop_id);
+    spec.attribute("chromaticities", floats(8), space.chromaticities.data());
+    spec.attribute("adoptedNeutral", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::VEC2), space.white.data());
+}
+
+std::string recorded_development(const OIIO::ImageSpec& spec)
+{
+    const auto record = read_record(spec);
+    return record ? record->development : "";
 }
 
 void append_history(OIIO::ImageSpec& spec, const std::string& command)
@@ -194,6 +217,23 @@ CameraFacts recorded_camera(const OIIO::ImageSpec& spec)
         }
     }
     return facts;
+}
+
+void append_notes(OIIO::ImageSpec& spec, const std::vector<std::string>& notes)
+{
+    std::vector<std::string> all;
+    if (const std::string before = spec.get_string_attribute(attribute::kNotes); !before.empty())
+        all.push_back(before);
+    all.insert(all.end(), notes.begin(), notes.end());
+    if (!all.empty())
+        spec.attribute(attribute::kNotes, OIIO::Strutil::join(all, "; "));
+}
+
+std::array<float, 3> recorded_reference_neutral(const OIIO::ImageSpec& spec)
+{
+    std::array<float, 3> neutral{};
+    spec.getattribute(kAsShotNeutral, floats(3), neutral.data());
+    return neutral;
 }
 
 CameraFacts recorded_sensor(const OIIO::ImageSpec& spec)

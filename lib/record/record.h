@@ -10,6 +10,8 @@
 #include <srisp/camera.h>
 #include <srisp/options.h>
 
+#include "base/scene_linear_space.h"
+
 // All that a result says of itself, each thing by its one name here: a line in its ImageDescription, and attributes.
 
 namespace srisp {
@@ -38,6 +40,7 @@ struct RecordLine {
     std::string parameters;  ///< JSON object as srisp::to_json writes; empty: not known yet
     std::string description; ///< the source's own ImageDescription
     std::string sensor;      ///< JSON object of SensorValues; empty: there are none
+    std::string development; ///< JSON object of what made scene-linear colour of camera RGB; empty: it is camera RGB
 };
 
 /// How the values of a result follow a sensor: as attributes, and in the line, which TIFF and PNG keep, too.
@@ -62,8 +65,17 @@ void record_sensor_values(OIIO::ImageSpec& spec, const SensorValues& values);
 /// An image of more than one channel has no filters and levels.
 SensorValues recorded_sensor_values(const OIIO::ImageSpec& spec);
 
+/// Says of a RAW-like or camera RGB image that its values are scene-linear colour now. `development`: what made it so,
+/// a JSON object for the record, where there is one.
+void record_development(OIIO::ImageSpec& spec, const SceneLinearSpace& space, const std::string& development);
+/// The same as recorded; empty: the image is not developed, or not by us.
+std::string recorded_development(const OIIO::ImageSpec& spec);
+
 /// Adds a command to the image's history, once: a command line may hold several of our commands.
 void append_history(OIIO::ImageSpec& spec, const std::string& command);
+
+/// Adds to what the image says was ignored or assumed.
+void append_notes(OIIO::ImageSpec& spec, const std::vector<std::string>& notes);
 
 /// The plain mark that an image is synthetic.
 const char* synthetic_mark(Direction direction);
@@ -86,5 +98,8 @@ CameraFacts recorded_camera(const OIIO::ImageSpec& spec);
 
 /// The same with the reference's filters, levels and noise, which a file for RAW programs should have, too.
 CameraFacts recorded_sensor(const OIIO::ImageSpec& spec);
+
+/// Camera RGB of what was neutral in the reference's light; 0: not known.
+std::array<float, 3> recorded_reference_neutral(const OIIO::ImageSpec& spec);
 
 } // namespace srisp

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "result/computed_image.h"
 
+#include "result/developed_image.h"
 #include "result/result_image.h"
 #include "result/sensor_image.h"
 #include "result/stored_image.h"
@@ -22,12 +23,14 @@ Expected<std::unique_ptr<ComputedImage>> open_computed_image(const Recipe& recip
                                                              const OIIO::ImageSpec& config, KeptResults& kept)
 {
     const std::string name = source->name();
-    auto image = recipe.action == Recipe::Action::sensor
-                     ? as_computed(StoredImage::open(std::move(source)))
-                     : as_computed(ResultImage::open(recipe, std::move(source), config, kept));
-    if (!image || (!recipe.mosaic && recipe.noise.empty()))
-        return image;
-    return as_computed(SensorImage::open(recipe, name, std::move(*image), kept));
+    const bool stored = recipe.action == Recipe::Action::sensor || recipe.action == Recipe::Action::develop;
+    auto image = stored ? as_computed(StoredImage::open(std::move(source)))
+                        : as_computed(ResultImage::open(recipe, std::move(source), config, kept));
+    if (image && (recipe.mosaic || !recipe.noise.empty()))
+        image = as_computed(SensorImage::open(recipe, name, std::move(*image), kept));
+    if (image && !recipe.develop.empty())
+        image = as_computed(DevelopedImage::open(recipe, name, std::move(*image), kept));
+    return image;
 }
 
 } // namespace srisp

@@ -8,10 +8,10 @@
 #include "base/guarded.h"
 #include "base/named_output.h"
 #include "base/png_orientation.h"
-#include "photo/pixel_source.h"
 #include "recipe/recipe.h"
 #include "result/computed_image.h"
 #include "result/kept_results.h"
+#include "result/recipe_source.h"
 
 namespace srisp {
 
@@ -45,10 +45,11 @@ Status write_image(OIIO::ImageOutput& output, const std::string& path, const OII
     return Error{ reason.empty() ? "its writer does not say why" : reason };
 }
 
-Expected<Image> result_of(const Recipe& recipe, Expected<std::unique_ptr<PixelSource>> source)
+Expected<Image> result_of(const Recipe& recipe)
 {
     // Never destroyed: other threads may still read while statics end.
     static KeptResults& kept = *new KeptResults;
+    auto source = open_recipe_source(recipe, {});
     if (!source)
         return source.error();
     if (const Status complete = check_complete(recipe, (*source)->name()); !complete)
@@ -97,7 +98,7 @@ Expected<Image> unprocess(const std::string& photo_path, const std::string& refe
         recipe.source = photo_path;
         if (!reference_path.empty())
             recipe.references = { reference_path };
-        return result_of(recipe, open_file_source(photo_path, "photo", reading_hints(options)));
+        return result_of(recipe);
     });
 }
 
@@ -108,7 +109,20 @@ Expected<Image> process(const std::string& raw_path, const Options& options)
         static_cast<Options&>(recipe) = options;
         recipe.source = raw_path;
         recipe.direction = Direction::forward;
-        return result_of(recipe, open_file_source(raw_path, "image", reading_hints(options)));
+        return result_of(recipe);
+    });
+}
+
+Expected<Image> develop(const std::string& raw_path, const Options& options)
+{
+    return guarded("image", raw_path, [&] {
+        Recipe recipe;
+        static_cast<Options&>(recipe) = options;
+        recipe.source = raw_path;
+        recipe.action = Recipe::Action::develop;
+        if (recipe.develop.empty())
+            recipe.develop = "ACEScg";
+        return result_of(recipe);
     });
 }
 

@@ -30,16 +30,6 @@ OIIO::ImageSpec one_channel(OIIO::ImageSpec spec)
     return spec;
 }
 
-void append_notes(OIIO::ImageSpec& spec, const std::vector<std::string>& notes)
-{
-    std::vector<std::string> all;
-    if (const std::string before = spec.get_string_attribute(attribute::kNotes); !before.empty())
-        all.push_back(before);
-    all.insert(all.end(), notes.begin(), notes.end());
-    if (!all.empty())
-        spec.attribute(attribute::kNotes, OIIO::Strutil::join(all, "; "));
-}
-
 /// A whole code, as a part of the range of 16 bits.
 float to_code(float value, float black_code, float white_code)
 {
@@ -112,6 +102,8 @@ Expected<SensorImage::Level> SensorImage::first_look(const OIIO::ImageSpec& spec
     const auto record = read_record(spec);
     if (record && record->direction == Direction::forward)
         return error("is a processed picture; a sensor sees RAW-like images");
+    if (record && !record->development.empty())
+        return error("is developed; a sensor sees RAW-like images");
     const bool is_mosaic = !level.before.cfa_pattern.empty();
     if (is_mosaic && m_recipe.mosaic)
         return error("is a mosaic already");

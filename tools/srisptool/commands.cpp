@@ -138,6 +138,9 @@ const std::vector<SrispCommand>& srisp_commands()
           "Leave of each pixel of a RAW-like image the colour that the filter over it lets through, as a sensor does" },
         { "srisp-noise", "SOURCE", kNoise, Effect::replaces, "reverse", "sensor",
           "Add a sensor's noise to a RAW-like image or a mosaic" },
+        { "srisp-develop", "SPACE", kDevelop, Effect::replaces, "reverse", "develop",
+          "Turn a RAW-like image, or a camera's RAW file, into scene-linear colour: ACEScg, ACES2065-1, lin_rec709, "
+          "lin_rec2020, lin_p3d65, XYZ" },
         { "srisp-params", "REF", kParams, Effect::reports, "reverse", "print",
           "Print the parameters that --srisp-unprocess would choose, as JSON on stdout, one line per image; the image "
           "stays as it is" },

@@ -112,6 +112,10 @@ void set_argument(nlohmann::json& job, const SrispCommand& command, const std::s
 {
     if (command.action == std::string("save")) {
         job["file"] = frame_pattern_of_file(output_path(name, text));
+    } else if (command.door == kDevelop) {
+        if (const Status known = text.empty() ? Status(Error{ "no colour space is named" }) : check_space(text); !known)
+            fail_usage(name + ": " + known.error().message);
+        job["develop"] = text;
     } else if (command.door == kNoise) {
         if (const auto source = parse_noise_source(text); !source)
             fail_usage(name + ": " + source.error().message);
@@ -136,7 +140,7 @@ nlohmann::json job_of(const Step& step)
         set_argument(job, command, name, step.words[1]);
     if (command.door == kMosaic && !job.contains("mosaic"))
         job["mosaic"] = "reference";
-    if (command.action == std::string("sensor"))
+    if (command.action == std::string("sensor") || command.action == std::string("develop"))
         job["action"] = command.action;
     return job;
 }

@@ -264,7 +264,7 @@ private:
         }
         const std::string command = std::string("--") + step.srisp->name;
         nlohmann::json job = job_of(step);
-        const std::size_t last = step.srisp->effect == Effect::replaces ? join_sensor_steps(i, job) : i;
+        const std::size_t last = step.srisp->effect == Effect::replaces ? join_following_steps(i, job) : i;
         if (!m_any_image)
             fail(command + ": no image before it");
         if (!m_options.typed_command.empty())
@@ -282,14 +282,15 @@ private:
         return last;
     }
 
-    /// Lets a job take in the steps for a sensor that follow its own, and says what these need to know of the line.
-    /// Returns the number of the last one.
-    std::size_t join_sensor_steps(std::size_t i, nlohmann::json& job)
+    /// Lets a job take in the steps for a sensor, and the development, that follow its own, and says what these need to
+    /// know of the line. Returns the number of the last one.
+    std::size_t join_following_steps(std::size_t i, nlohmann::json& job)
     {
         const bool reverse = job["direction"] == "reverse";
-        for (const char* next : { "srisp-mosaic", "srisp-noise" }) {
-            const bool joins = reverse && i + 1 < m_steps.size() && m_steps[i + 1].is_named(next);
-            if (!joins || job.contains("noise"))
+        for (const std::string next : { "srisp-mosaic", "srisp-noise", "srisp-develop" }) {
+            const bool follows = reverse && i + 1 < m_steps.size() && m_steps[i + 1].is_named(next);
+            const bool is_done = job.contains("develop") || (job.contains("noise") && next != "srisp-develop");
+            if (!follows || is_done)
                 continue;
             nlohmann::json other = job_of(m_steps[++i]);
             other.erase("action");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -56,6 +57,27 @@ struct Brightness {
                          ///< brightness_sd_ev; the seed and the photo's name say which draw
 };
 
+/// What is white in a developed image.
+struct WhiteBalance {
+    enum class Kind {
+        scene,      ///< what was white in the photo, or as-shot of a camera's own RAW image
+        reference,  ///< what was white in the reference
+        light,      ///< a surface under a light of this temperature and tint
+        multipliers ///< what becomes white by these
+    };
+    Kind kind = Kind::scene;
+    float temperature = 0; ///< kelvin, 1000 to 25000
+    float tint = 0;        ///< −200 to 200: 3000 × the light's distance above the Planckian locus in CIE 1960 uv
+    std::array<float, 3> multipliers{};
+};
+
+/// What becomes of highlights in a developed image, where white balance lifts channels that are saturated.
+enum class Highlights {
+    clip,  ///< white, at 1 (before exposure): dcraw -H 0
+    blend, ///< as bright as they are balanced, and as colourful as they are clipped: dcraw -H 2
+    keep   ///< as they are balanced: mostly magenta; the only exact way back
+};
+
 /// What may be asked for beside a photo and a reference.
 struct Options {
     std::string model;                    ///< name, or path of a .safetensors file; empty: the known one that
@@ -77,12 +99,20 @@ struct Options {
     std::string noise;
     std::string profile; ///< path of a noiseprofiles.json, for noise by ISO; empty: the one darktable installed
     std::uint64_t noise_seed = 0; ///< with the photo's name it says which noise
+
+    /// The scene-linear colour space that the RAW-like image is developed into: ACEScg, ACES2065-1, lin_rec709,
+    /// lin_rec2020, lin_p3d65, XYZ, or another name of theirs; empty: it stays camera RGB.
+    std::string develop;
+    WhiteBalance white_balance;
+    double exposure = 0; ///< EV; −20 to 20
+    Highlights highlights = Highlights::clip;
 };
 
 /// Sets one option by its name, as a query, a recipe and srisptool do: model, params (the path of a JSON file), input
 /// (auto, srgb, linear), precision (float32, fast), brightness (EV, sample), seed, gainmap (ignore, apply),
 /// allow_partial (0, 1), isolate (0, 1), mosaic (reference, RGGB, …), levels (unit, camera), noise, profile,
-/// noise_seed. Errors: unknown keys and values (the near ones listed), a file that cannot be read.
+/// noise_seed, develop, whitebalance (scene, reference, KELVIN, KELVIN,TINT, R,G,B), exposure (EV), highlights (clip,
+/// blend, keep). Errors: unknown keys and values (the near ones listed), a file that cannot be read.
 SRISP_API Status set_option(Options& options, const std::string& key, const std::string& value);
 
 } // namespace srisp

@@ -7,6 +7,7 @@
 #include <OpenImageIO/imageio.h>
 #include <srisp/apply.h>
 #include <srisp/camera.h>
+#include <srisp/develop.h>
 #include <srisp/expected.h>
 #include <srisp/export.h>
 #include <srisp/image.h>
@@ -59,7 +60,12 @@ private:
 SRISP_API Expected<Image> unprocess(const std::string& photo_path, const std::string& reference_path,
                                     const Options& options = {});
 
-/// A RAW-like image → a display-encoded photo, by the parameters that the image records or `options` give.
+/// A RAW-like image of ours, or a camera's RAW file (LibRaw demosaics it) → scene-linear colour, in the space that
+/// `options.develop` names, else ACEScg. unprocess() with options.develop does both at once. Errors: as there, and those
+/// of choose_development.
+SRISP_API Expected<Image> develop(const std::string& raw_path, const Options& options = {});
+
+/// A RAW-like image, or one that was developed → a display-encoded photo, by the parameters that the image records or `options` give.
 SRISP_API Expected<Image> process(const std::string& raw_path, const Options& options = {});
 
 } // namespace srisp
