@@ -133,9 +133,13 @@ namespace {
 
 // 65 points: one cell from 0 to 0.9, 24 to 1, 39 above.
 constexpr int kHighlightPoints = 65, kHighlightCells = kHighlightPoints - 1, kFine = 24;
+// Of the curves that look them up: so many from 1 to the limit, and at most so many per 0.1. A limit may be as close to
+// 1 as it likes; nearer than the two allow, it is taken to lie there.
+constexpr int kPointsAboveOne = 8, kMostPointsPerTenth = 3200;
+constexpr double kLeastLimit = 1 + kPointsAboveOne / (10.0 * kMostPointsPerTenth);
 
-/// The formula without the limit 1 / gain: points beyond it continue it, so that the cell with the limit has no bend.
-std::array<double, 3> rebuilt(const std::array<double, 3>& u, double gain)
+/// The formula without its limit, 1 / gain: points beyond it continue it, so that the cell with the limit has no bend.
+std::array<double, 3> rebuilt(const std::array<double, 3>& u, double gain, double limit)
 {
     double sum = 0, top = 1;
     for (const double value : u) {
@@ -145,7 +149,7 @@ std::array<double, 3> rebuilt(const std::array<double, 3>& u, double gain)
     // A parabola, balanced as in balanced_mask, for half of the steps of all three channels together.
     const double near_white = std::clamp((sum - 2.9) / 0.1, 0.0, 1.0), step = 1.5 / kFine;
     const bool between = near_white > 0 && near_white < 1;
-    const double height = (top - 1) / (1 / gain - 1);
+    const double height = (top - 1) / (limit - 1);
     const double m = std::max(near_white * near_white - (between ? step * step / 8 : 0), 0.0) * height * height;
     std::array<double, 3> result;
     for (int c = 0; c < 3; ++c)
@@ -158,26 +162,29 @@ std::array<double, 3> rebuilt(const std::array<double, 3>& u, double gain)
 void append_rebuilt_highlights(Operators& operators, double gain, double most)
 {
     // 0.9 and 1 are to lie on points of the curves.
-    const int tenths = std::max(11, int(std::ceil(10 * std::min(1 / gain, most) - 1e-6)));
-    const Corners corners{ { 0, 9.0 / tenths, 10.0 / tenths, 1 },
+    const double limit = std::max(1 / gain, kLeastLimit), reached = std::max(std::min(limit, most), kLeastLimit) - 1;
+    const int per_tenth = std::max(int(std::ceil(kPointsAboveOne / (10 * reached) - 1e-6)), kPointsPerTenth);
+    const int above = int(std::ceil(10 * per_tenth * reached - 1e-6));
+    const double end = 1 + above / (10.0 * per_tenth);
+    const Corners corners{ { 0, 0.9 / end, 1 / end, 1 },
                            { 0, 1.0 / kHighlightCells, (1.0 + kFine) / kHighlightCells, 1 } };
-    operators.push_back(Clamp{ 0, static_cast<float>(1 / gain) });
-    operators.push_back(diagonal(10.0 / tenths, 10.0 / tenths, 10.0 / tenths));
+    operators.push_back(Clamp{ 0, static_cast<float>(limit) });
+    operators.push_back(diagonal(1 / end, 1 / end, 1 / end));
 
-    Curves curves{ tenths * kPointsPerTenth + 1, {} };
+    Curves curves{ 10 * per_tenth + above + 1, {} };
     for (int i = 0; i < curves.size; ++i)
         curves.rgb.insert(curves.rgb.end(), 3, static_cast<float>(corners(double(i) / (curves.size - 1))));
     operators.push_back(std::move(curves));
 
     std::array<double, kHighlightPoints> values;
     for (int i = 0; i < kHighlightPoints; ++i)
-        values[i] = 0.1 * tenths * corners.inverse(double(i) / kHighlightCells);
+        values[i] = end * corners.inverse(double(i) / kHighlightCells);
     Cube cube{ kHighlightPoints, {} };
     cube.rgb.reserve(std::size_t(3) * kHighlightPoints * kHighlightPoints * kHighlightPoints);
     for (int r = 0; r < kHighlightPoints; ++r)
         for (int g = 0; g < kHighlightPoints; ++g)
             for (int b = 0; b < kHighlightPoints; ++b)
-                for (const double value : rebuilt({ values[r], values[g], values[b] }, gain))
+                for (const double value : rebuilt({ values[r], values[g], values[b] }, gain, limit))
                     cube.rgb.push_back(static_cast<float>(value));
     operators.push_back(std::move(cube));
     operators.push_back(Clamp{ 0, 1 });

@@ -25,7 +25,7 @@ double mean_difference(const Colors& a, const Colors& b)
 /// The sample's parameters, and edited ones in which each kind of gain occurs.
 std::vector<Parameters> parameter_sets(const Model& model)
 {
-    std::vector<Parameters> sets(6, sample_parameters(model));
+    std::vector<Parameters> sets(8, sample_parameters(model));
     sets[1].gain = 0.6f;
     sets[1].white_balance = { 1.9f, 1, 1.5f };
     sets[2].gain = 3;
@@ -37,6 +37,10 @@ std::vector<Parameters> parameter_sets(const Model& model)
     sets[4].color = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
     sets[5].gain = 0.15f;
     sets[5].white_balance = { 2.2f, 1, 1.6f };
+    sets[6].gain = 0.999f;
+    sets[6].white_balance = { 1, 1.05f, 1.9f };
+    sets[7].gain = 0.999999f;
+    sets[7].white_balance = { 1.9f, 1, 1.5f };
     return sets;
 }
 
