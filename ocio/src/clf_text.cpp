@@ -45,6 +45,14 @@ void add_operator(std::string& text, const Clamp& clamp)
     text += "    </Range>\n";
 }
 
+void add_operator(std::string& text, const Limit& limit)
+{
+    text += std::string("    <Range") + kDepths + ">\n";
+    add_element(text, "maxInValue", limit.high);
+    add_element(text, "maxOutValue", limit.high);
+    text += "    </Range>\n";
+}
+
 void add_operator(std::string& text, const Power& power)
 {
     text += std::string("    <Exponent") + kDepths + " style=\"basicFwd\">\n        <ExponentParams exponent=\"";

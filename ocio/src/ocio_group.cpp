@@ -17,6 +17,14 @@ OCIO::TransformRcPtr transform_of(const Clamp& clamp)
     return range;
 }
 
+OCIO::TransformRcPtr transform_of(const Limit& limit)
+{
+    auto range = OCIO::RangeTransform::Create();
+    range->setMaxInValue(limit.high);
+    range->setMaxOutValue(limit.high);
+    return range;
+}
+
 OCIO::TransformRcPtr transform_of(const Power& power)
 {
     auto exponent = OCIO::ExponentTransform::Create();

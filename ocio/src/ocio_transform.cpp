@@ -69,7 +69,24 @@ Operators forward_operators(const Parameters& p, Cube tone, bool rebuilds_highli
     return operators;
 }
 
+Status check_bakeable(const Development& development)
+{
+    if (development.highlights != Highlights::blend)
+        return {};
+    return Error{ "highlights that are blended have no OpenColorIO transform: clip or keep" };
+}
+
 } // namespace
+
+Operators development_operators(const Development& development)
+{
+    const auto& [red, green, blue] = development.multipliers;
+    Operators operators{ diagonal(red, green, blue) };
+    if (development.highlights == Highlights::clip)
+        operators.push_back(Limit{ 1 });
+    operators.push_back(affine(development.matrix));
+    return operators;
+}
 
 Expected<Operators> pipeline_operators(const Model& model, const Parameters& parameters, Direction direction,
                                        int lut_size)
@@ -104,6 +121,24 @@ Expected<std::string> make_clf(const Model& model, const Parameters& parameters,
         if (!operators)
             return operators.error();
         return clf_text(*operators, label);
+    });
+}
+
+Expected<OCIO::GroupTransformRcPtr> make_ocio_development(const Development& development)
+{
+    return guarded("OpenColorIO transform", {}, [&]() -> Expected<OCIO::GroupTransformRcPtr> {
+        const Status bakeable = check_bakeable(development);
+        return bakeable ? Expected<OCIO::GroupTransformRcPtr>(ocio_group(development_operators(development)))
+                        : bakeable.error();
+    });
+}
+
+Expected<std::string> make_development_clf(const Development& development, const ClfLabel& label)
+{
+    return guarded("CLF", {}, [&]() -> Expected<std::string> {
+        const Status bakeable = check_bakeable(development);
+        return bakeable ? Expected<std::string>(clf_text(development_operators(development), label))
+                        : bakeable.error();
     });
 }
 

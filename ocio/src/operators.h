@@ -18,6 +18,10 @@ namespace srisp {
 struct Clamp {
     float low, high;
 };
+/// min(v, high)
+struct Limit {
+    float high;
+};
 /// v^exponent, v ≥ 0
 struct Power {
     float exponent;
@@ -38,7 +42,7 @@ struct Cube {
     std::vector<float> rgb;
 };
 
-using Operator = std::variant<Clamp, Power, Affine, Curves, Cube>;
+using Operator = std::variant<Clamp, Limit, Power, Affine, Curves, Cube>;
 using Operators = std::vector<Operator>;
 
 inline Affine diagonal(double r, double g, double b)
@@ -60,6 +64,9 @@ void append_rebuilt_highlights(Operators& operators, double gain, double most);
 /// The whole pipeline [method 1]; limits and errors as make_ocio_transform says.
 Expected<Operators> pipeline_operators(const Model& model, const Parameters& parameters, Direction direction,
                                        int lut_size);
+
+/// A development [srisp/develop.h]; highlights are not Highlights::blend.
+Operators development_operators(const Development& development);
 
 /// The operators as OpenColorIO's transforms. Throws what OpenColorIO throws.
 OCIO_NAMESPACE::GroupTransformRcPtr ocio_group(const Operators& operators);

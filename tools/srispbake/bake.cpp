@@ -84,6 +84,12 @@ std::string CubeTable::text(const std::string& title, const std::vector<std::str
     return text;
 }
 
+/// Of what is no development.
+Direction direction_of(BakeKind kind)
+{
+    return kind == BakeKind::process ? Direction::forward : Direction::reverse;
+}
+
 std::string absolute_path(const std::string& path)
 {
     std::error_code error;
@@ -91,23 +97,26 @@ std::string absolute_path(const std::string& path)
     return error ? path : absolute.string();
 }
 
-std::string title(const BakeChoice& choice, Direction direction)
+std::string title(const BakeChoice& choice, BakeKind kind)
 {
     const std::string& name = choice.parameters.reference_name;
-    return std::string("srisp ") + direction_name(direction) + (name.empty() ? "" : " as " + name);
+    return std::string("srisp ") + kind_name(kind) + (name.empty() ? "" : " as " + name);
 }
 
-std::vector<std::string> descriptions(const BakeOptions& options, const BakeChoice& choice, Direction direction,
+std::vector<std::string> descriptions(const BakeOptions& options, const BakeChoice& choice, BakeKind kind,
                                       const std::string& errors)
 {
-    std::vector<std::string> lines = {
-        direction == Direction::reverse
-            ? "Display-encoded sRGB to RAW-like linear camera RGB; synthetic, a guess and not sensor data."
-            : "RAW-like linear camera RGB to display-encoded sRGB; the way back of the other direction."
+    static const char* const kWhat[] = {
+        "Display-encoded sRGB to RAW-like linear camera RGB; synthetic, a guess and not sensor data.",
+        "RAW-like linear camera RGB to display-encoded sRGB; the way back of the other direction.",
+        "Linear camera RGB of the reference's camera to ACES2065-1; exact. Its inverse is the way back."
     };
+    std::vector<std::string> lines = { kWhat[int(kind)] };
     if (!options.reference.empty())
         lines.push_back(reference_line(absolute_path(options.reference)));
     lines.push_back("Parameters: " + to_json(choice.parameters, -1));
+    if (kind == BakeKind::develop)
+        lines.push_back("Development: " + to_json(choice.development));
     lines.push_back(errors);
     return lines;
 }
@@ -120,29 +129,31 @@ struct Baked {
 
 BakeReport measured(const OutputName& name, const OCIO::ConstTransformRcPtr& transform, const BakeChoice& choice)
 {
-    const BakeErrors errors = measure_errors(transform, choice, name.direction);
+    const BakeErrors errors = measure_errors(transform, choice, name.kind);
     return { name, 0, errors, error_sentence(errors, choice) };
 }
 
 Baked bake_clf(const OutputName& name, const BakeOptions& options, const BakeChoice& choice)
 {
-    const auto operators =
-        require(pipeline_operators(*choice.model, choice.parameters, name.direction, options.lut_size));
+    const auto operators = name.kind == BakeKind::develop
+                               ? development_operators(choice.development)
+                               : require(pipeline_operators(*choice.model, choice.parameters, direction_of(name.kind),
+                                                            options.lut_size));
     check_interrupt();
     Baked baked{ measured(name, ocio_group(operators), choice), {} };
-    const ClfLabel label{ "srisp-" + std::string(direction_name(name.direction)), title(choice, name.direction),
-                          descriptions(options, choice, name.direction, baked.report.sentence) };
+    const ClfLabel label{ "srisp-" + std::string(kind_name(name.kind)), title(choice, name.kind),
+                          descriptions(options, choice, name.kind, baked.report.sentence) };
     baked.text = clf_text(operators, label);
     return baked;
 }
 
 Baked bake_cube(const OutputName& name, const BakeOptions& options, const BakeChoice& choice)
 {
-    const CubeTable table(choice, name.direction, options.lut_size);
+    const CubeTable table(choice, direction_of(name.kind), options.lut_size);
     check_interrupt();
     Baked baked{ measured(name, table.transform(), choice), {} };
     baked.text =
-        table.text(title(choice, name.direction), descriptions(options, choice, name.direction, baked.report.sentence));
+        table.text(title(choice, name.kind), descriptions(options, choice, name.kind, baked.report.sentence));
     return baked;
 }
 

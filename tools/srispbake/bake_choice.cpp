@@ -129,6 +129,19 @@ void make_brighter(BakeChoice& choice, const BakeOptions& options)
                               std::filesystem::path(photo).filename().string(), &choice.notes));
 }
 
+/// By the reference's camera; white is that of the scene.
+void choose_development(BakeChoice& choice, const BakeOptions& options)
+{
+    DevelopSource source{};
+    source.parameters = &choice.parameters;
+    if (choice.reference) {
+        source.camera = choice.reference->facts;
+        source.reference_neutral = source.camera.as_shot_neutral;
+    }
+    source.camera.as_shot_neutral = {}; // that of the parameters
+    choice.development = require(srisp::choose_development(source, development_options(options), choice.notes));
+}
+
 } // namespace
 
 BakeChoice make_choice(const BakeOptions& options)
@@ -147,6 +160,7 @@ BakeChoice make_choice(const BakeOptions& options)
     check_interrupt();
     if (!choice.reference) {
         make_brighter(choice, options);
+        choose_development(choice, options);
         return choice;
     }
     choice.notes = choice.reference->notes;
@@ -155,6 +169,7 @@ BakeChoice make_choice(const BakeOptions& options)
     if (options.parameters.empty())
         choice.parameters = chosen_parameters(*choice.model, choice.photo->thumbnail, *choice.reference, &choice.notes);
     make_brighter(choice, options);
+    choose_development(choice, options);
     return choice;
 }
 

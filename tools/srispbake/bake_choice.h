@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <srisp/develop.h>
 #include <srisp/image.h>
 #include <srisp/model.h>
 #include <srisp/parameters.h>
@@ -41,6 +42,7 @@ struct BakeChoice {
     Parameters parameters;                      ///< that the model chose, or was given
     std::shared_ptr<const Reference> reference; ///< null where only parameters are given
     std::optional<PhotoSample> photo;           ///< likewise, unless --source is there
+    Development development;
     std::vector<std::string> notes;             ///< about the reference and what was chosen
 };
 

@@ -16,23 +16,27 @@ constexpr int kGridSide = 48; // 47 shares no factor with the usual sizes of LUT
 
 using Pixels = std::vector<float>;
 
-/// The library's pixels in one direction.
+/// The library's pixels.
 class Renderer {
 public:
-    Renderer(const BakeChoice& choice, Direction direction)
-        : m_applier(require(Applier::create(*choice.model, choice.parameters, direction)))
+    Renderer(const BakeChoice& choice, BakeKind kind) : m_development(choice.development)
     {
+        if (kind != BakeKind::develop)
+            m_applier =
+                require(Applier::create(*choice.model, choice.parameters,
+                                        kind == BakeKind::process ? Direction::forward : Direction::reverse));
     }
     Pixels operator()(Pixels rgb) const
     {
         const int width = int(rgb.size() / 3);
         const MutableImageView colors{ rgb.data(), width, 1, 3, std::ptrdiff_t(3) * width };
-        require(m_applier->run(colors, colors));
+        require(m_applier ? m_applier->run(colors, colors) : develop(m_development, colors, colors));
         return rgb;
     }
 
 private:
-    std::shared_ptr<const Applier> m_applier;
+    const Development& m_development;
+    std::shared_ptr<const Applier> m_applier; ///< null: it is developed
 };
 
 /// The bake as a host applies it.
@@ -76,10 +80,10 @@ void ErrorSize::add(const std::vector<float>& a, const std::vector<float>& b)
     values += static_cast<std::int64_t>(a.size());
 }
 
-BakeErrors measure_errors(const OCIO::ConstTransformRcPtr& transform, const BakeChoice& choice, Direction direction)
+BakeErrors measure_errors(const OCIO::ConstTransformRcPtr& transform, const BakeChoice& choice, BakeKind kind)
 {
     const Bake bake(transform);
-    const Renderer library(choice, direction), reverse(choice, Direction::reverse);
+    const Renderer library(choice, kind), reverse(choice, BakeKind::unprocess);
     BakeErrors errors;
     const Pixels grid = dense_grid();
     errors.grid.add(bake(grid), library(grid));
@@ -88,7 +92,7 @@ BakeErrors measure_errors(const OCIO::ConstTransformRcPtr& transform, const Bake
     errors.photo.emplace();
     for (const PhotoSample::Tile& tile : choice.photo->tiles) {
         check_interrupt();
-        const Pixels in = direction == Direction::reverse ? tile.rgb : reverse(tile.rgb);
+        const Pixels in = kind == BakeKind::unprocess ? tile.rgb : reverse(tile.rgb);
         errors.photo->add(bake(in), library(in));
     }
     return errors;

@@ -6,8 +6,6 @@
 #include <vector>
 
 #include <OpenColorIO/OpenColorIO.h>
-#include <srisp/apply.h>
-
 #include "bake_choice.h"
 
 namespace srisp::tool {
@@ -24,11 +22,11 @@ struct ErrorSize {
 /// How far one bake is from the library's pixels, in the units of its result.
 struct BakeErrors {
     ErrorSize grid;                 ///< over a dense grid of colours
-    std::optional<ErrorSize> photo; ///< over the photo; `process`: over its RAW-like image
+    std::optional<ErrorSize> photo; ///< over the photo; but for `unprocess` over its RAW-like image
 };
 
 /// Applies the bake as a host does (CPU, default optimisation). Throws Failure.
 BakeErrors measure_errors(const OCIO_NAMESPACE::ConstTransformRcPtr& bake, const BakeChoice& choice,
-                          Direction direction);
+                          BakeKind kind);
 
 } // namespace srisp::tool

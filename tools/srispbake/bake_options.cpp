@@ -14,6 +14,15 @@
 
 namespace srisp::tool {
 
+namespace {
+
+bool ends_with(const std::string& text, const std::string& end)
+{
+    return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+} // namespace
+
 void describe_options(CLI::App& app, BakeOptions& options)
 {
     describe_common_options(app, options);
@@ -23,14 +32,33 @@ void describe_options(CLI::App& app, BakeOptions& options)
     app.add_option("--model", options.model);
     app.add_option("--brightness", options.brightness);
     app.add_option("--seed", options.seed);
+    app.add_option("--whitebalance", options.white_balance);
+    app.add_option("--exposure", options.exposure);
+    app.add_option("--highlights", options.highlights);
     app.add_option("-o,--output", options.output);
-    app.add_option("--direction", options.direction)->check(CLI::IsMember({ "unprocess", "process" }));
+    app.add_option("--direction", options.direction)->check(CLI::IsMember({ "unprocess", "process", "develop" }));
     app.add_option("--lut-size", options.lut_size)->check(CLI::Range(kSmallestLut, kLargestLut));
     app.add_option("--fragment", options.fragment);
     app.add_option("--linear-srgb", options.linear_srgb);
     app.add_flag("--allow-partial", options.allow_partial);
     app.add_flag("--cube", options.cube);
     app.add_flag("--watch", options.watch);
+}
+
+Options development_options(const BakeOptions& options)
+{
+    Options parsed;
+    parsed.develop = "ACES2065-1";
+    const std::pair<const char*, const std::string&> given[] = { { "whitebalance", options.white_balance },
+                                                                 { "exposure", options.exposure },
+                                                                 { "highlights", options.highlights } };
+    for (const auto& [key, value] : given)
+        if (!value.empty())
+            if (const Status set = set_option(parsed, key, value); !set)
+                fail_usage(set.error().message);
+    if (parsed.highlights == Highlights::blend)
+        fail_usage("highlights that are blended have no OpenColorIO transform: clip or keep");
+    return parsed;
 }
 
 void check_options(const BakeOptions& options)
@@ -46,12 +74,15 @@ void check_options(const BakeOptions& options)
     if (!options.brightness.empty())
         if (const Status set = set_option(parsed, "brightness", options.brightness); !set)
             fail_usage(set.error().message);
+    development_options(options);
     if (options.reference.empty() && options.parameters.empty())
         fail_usage("no reference is given (srispbake --help shows how)");
     if (options.reference.empty() && options.output.empty())
         fail_usage("without --reference there is nothing to name the files after: -o NAME");
     if (!options.direction.empty() && !is_single_file(options.output))
         fail_usage("--direction belongs to one file: -o FILE.clf or -o FILE.cube");
+    if (options.direction == "develop" && ends_with(options.output, ".cube"))
+        fail_usage("a development takes values of any size, which a .cube file cannot: -o FILE.clf");
     if (options.cube && is_single_file(options.output))
         fail_usage("--cube belongs to a pair of files; -o FILE.cube makes one");
     if (options.watch && options.json)
@@ -64,10 +95,11 @@ Usage: srispbake --reference RAW [--source PHOTO] [options]
        srispbake --params JSON -o NAME [options]
        srispbake --fragment CONFIG [-o FILE]
 
-Writes two CLF files beside the reference, RAW.unprocess.clf (photo to RAW-like)
-and RAW.process.clf (back), which the config share/srisp/ocio/srisp.ocio reads
-in any host where the context variable SRISP_REFERENCE is the path of RAW. Where
-that folder cannot be written to, they go to the folder SRISP_BAKE_PATH.
+Writes three CLF files beside the reference, RAW.unprocess.clf (photo to
+RAW-like), RAW.process.clf (back) and RAW.develop.clf (RAW-like to ACES2065-1),
+which the config share/srisp/ocio/srisp.ocio reads in any host where the context
+variable SRISP_REFERENCE is the path of RAW. Where that folder cannot be written
+to, they go to the folder SRISP_BAKE_PATH.
 
 Parameters are chosen for PHOTO; without one, for the picture that a plain
 converter makes of the reference itself. How far a bake is from srisptool's
@@ -86,10 +118,16 @@ Options:
                       below 0; sample draws from how unsure the brightness is,
                       by the seed and the photo's name
   --seed N            Of the sampled brightness; 0
-  -o, --output NAME   NAME.unprocess.clf and NAME.process.clf instead; or one
-                      file, NAME.clf or NAME.cube; or a device or pipe
-  --direction WHICH   Of one file: unprocess (without this) or process
-  --cube              .cube files beside the .clf: one table, larger errors
+  --whitebalance W    Of RAW.develop.clf, what becomes white: scene (what is
+                      white in PHOTO; without this), reference (in RAW's light),
+                      KELVIN, KELVIN,TINT or multipliers R,G,B
+  --exposure EV       Of RAW.develop.clf: brighter by that much; 0
+  --highlights HOW    Of RAW.develop.clf: clip (without this) or keep
+  -o, --output NAME   NAME.unprocess.clf, NAME.process.clf and NAME.develop.clf
+                      instead; or one file, NAME.clf or NAME.cube; or a device
+                      or pipe
+  --direction WHICH   Of one file: unprocess (without this), process or develop
+  --cube              .cube files beside the first two: one table, larger errors
   --lut-size N        Points along each side of tables, 5 to 129; 65
   --watch             Bake again when reference, photo, parameters or model
                       change, until it is interrupted
@@ -124,11 +162,6 @@ namespace {
 
 const char kReferenceLine[] = "Reference: ";
 
-bool ends_with(const std::string& text, const std::string& end)
-{
-    return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 /// Where the pair of a reference is named after; the folder can be written to.
 std::string stem_of_reference(const std::string& reference)
 {
@@ -152,23 +185,27 @@ bool is_single_file(const std::string& output)
     return ends_with(output, ".clf") || ends_with(output, ".cube") || is_device_output(output);
 }
 
-const char* direction_name(Direction direction)
+const char* kind_name(BakeKind kind)
 {
-    return direction == Direction::reverse ? "unprocess" : "process";
+    static const char* const kNames[] = { "unprocess", "process", "develop" };
+    return kNames[int(kind)];
 }
 
 std::vector<OutputName> output_names(const std::string& reference, const std::string& output,
                                      const std::string& direction, bool cube)
 {
     if (is_single_file(output))
-        return { { output, direction == "process" ? Direction::forward : Direction::reverse,
+        return { { output,
+                   direction == "process"   ? BakeKind::process
+                   : direction == "develop" ? BakeKind::develop
+                                            : BakeKind::unprocess,
                    ends_with(output, ".cube") } };
     const std::string stem = (output.empty() ? stem_of_reference(reference) : output) + ".";
     std::vector<OutputName> names;
     for (const bool as_cube : { false, true })
-        for (const Direction each : { Direction::reverse, Direction::forward })
-            if (!as_cube || cube)
-                names.push_back({ stem + direction_name(each) + (as_cube ? ".cube" : ".clf"), each, as_cube });
+        for (const BakeKind each : { BakeKind::unprocess, BakeKind::process, BakeKind::develop })
+            if (!as_cube || (cube && each != BakeKind::develop))
+                names.push_back({ stem + kind_name(each) + (as_cube ? ".cube" : ".clf"), each, as_cube });
     return names;
 }
 

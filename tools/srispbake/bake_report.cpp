@@ -70,7 +70,7 @@ std::string summary_json(const BakeSummary& summary)
     ordered_json files = ordered_json::array();
     for (const BakeReport& file : summary.files)
         files.push_back({ { "path", file.name.path },
-                          { "direction", direction_name(file.name.direction) },
+                          { "direction", kind_name(file.name.kind) },
                           { "bytes", file.bytes },
                           { "error_over_grid", json_of(file.errors.grid) },
                           { "error_over_photo", json_of(file.errors.photo) } });

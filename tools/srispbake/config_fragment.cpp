@@ -141,7 +141,7 @@ void check_extended(const OCIO::ConstConfigRcPtr& extended, const OCIO::ConstCon
         fail("what was there would not stay as it is; nothing is written (add the entries of srisp.ocio by hand)");
     const auto context = extended->getCurrentContext()->createEditableCopy();
     context->setStringVar(kVariable, kNeutral);
-    for (const char* name : { "srisp camera RGB", "srisp process" })
+    for (const char* name : { "srisp camera RGB", "srisp process", "srisp scene linear", "srisp ACEScg", "srisp photo" })
         extended->getProcessor(context, "srisp sRGB", name);
     for (const std::string& name : kAddedLooks) {
         auto look = OCIO::LookTransform::Create();
@@ -172,7 +172,7 @@ class NeutralBakes {
 public:
     void put_into(const fs::path& folder)
     {
-        for (const char* end : { ".unprocess.clf", ".process.clf" }) {
+        for (const char* end : { ".unprocess.clf", ".process.clf", ".develop.clf" }) {
             const std::string name = kNeutral + std::string(end);
             const std::string text = read_text((shared_folder("ocio") / name).string(), "our own file");
             std::error_code error;
@@ -264,8 +264,8 @@ std::string fragment_text(const FragmentReport& report)
     if (report.config.empty())
         return "The config has srisp's looks and colour spaces already.\n";
     std::string text = report.config +
-                       ": looks 'srisp unprocess' and 'srisp process', colour spaces 'srisp camera RGB' and three "
-                       "more\n  linear sRGB: " +
+                       ": looks 'srisp unprocess' and 'srisp process', colour spaces 'srisp photo', 'srisp camera "
+                       "RGB' and five more\n  linear sRGB: " +
                        report.linear_srgb + "\n  neutral bakes: " + report.neutral_folder + "\n";
     if (!report.search_path)
         text += "  Its search path was empty, and is '.' now: its own folder.\n";

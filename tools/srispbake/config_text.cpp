@@ -123,8 +123,18 @@ namespace {
 
 const char kUnprocess[] = "!<FileTransform> {src: \"${SRISP_REFERENCE}.unprocess.clf\", interpolation: best}";
 const char kProcess[] = "!<FileTransform> {src: \"${SRISP_REFERENCE}.process.clf\", interpolation: best}";
+const char kDevelop[] = "!<FileTransform> {src: \"${SRISP_REFERENCE}.develop.clf\", interpolation: best}";
+const char kUndevelop[] =
+    "!<FileTransform> {src: \"${SRISP_REFERENCE}.develop.clf\", interpolation: best, direction: inverse}";
+const char kToAcescg[] = "!<BuiltinTransform> {style: ACEScg_to_ACES2065-1, direction: inverse}";
+const char kFromAcescg[] = "!<BuiltinTransform> {style: ACEScg_to_ACES2065-1}";
 const char kDecode[] = "!<ExponentWithLinearTransform> {gamma: 2.4, offset: 0.055, direction: forward}";
 const char kEncode[] = "!<ExponentWithLinearTransform> {gamma: 2.4, offset: 0.055, direction: inverse}";
+
+/// ACES2065-1 → linear sRGB, white to white (Bradford).
+constexpr std::array<double, 9> kAcesToLinearSrgb = { 2.52168618674,   -1.13413098824, -0.387555198504,
+                                                      -0.27647991423,  1.37271908767,  -0.0962391734383,
+                                                      -0.015378064966, -0.152975335867, 1.16835340083 };
 
 std::string matrix_text(const std::array<double, 9>& m, const char* direction)
 {
@@ -180,14 +190,17 @@ const std::vector<AddedVariable> kAddedVariables = { { "SRISP_MODEL", "default" 
                                                      { "SRISP_REFERENCE", "srisp_neutral" },
                                                      { "SRISP_SOURCE", "" } };
 const std::vector<std::string> kAddedLooks = { "srisp unprocess", "srisp process" };
-const std::vector<std::string> kAddedColorSpaces = { "srisp linear sRGB", "srisp sRGB", "srisp camera RGB",
-                                                     "srisp process" };
-const std::vector<std::string> kAddedAliases = { "srisp_linear_srgb", "srisp_srgb", "camera_rgb", "srisp_camera_rgb",
-                                                 "srisp_process" };
+const std::vector<std::string> kAddedColorSpaces = { "srisp linear sRGB", "srisp sRGB",         "srisp camera RGB",
+                                                     "srisp process",     "srisp scene linear", "srisp ACEScg",
+                                                     "srisp photo" };
+const std::vector<std::string> kAddedAliases = { "srisp_linear_srgb",  "srisp_srgb",   "camera_rgb", "srisp_camera_rgb", "srisp_process",
+                                                 "srisp_scene_linear", "srisp_acescg", "srisp_photo" };
 
 ConfigEntries config_entries(const std::array<double, 9>& to_reference)
 {
     const std::string to = matrix_text(to_reference, "forward"), from = matrix_text(to_reference, "inverse");
+    const std::string from_aces = matrix_text(kAcesToLinearSrgb, "forward"),
+                      to_aces = matrix_text(kAcesToLinearSrgb, "inverse");
     const std::string looks =
         look("srisp unprocess", "srisp sRGB",
              "Photo to the camera RGB of the reference. Take sRGB as input and output space.", kUnprocess, kProcess) +
@@ -217,7 +230,27 @@ ConfigEntries config_entries(const std::array<double, 9>& to_reference)
                                              "The picture of a RAW-like image that the host takes for linear sRGB.",
                                              "sdr-video",
                                              { kUnprocess, to },
-                                             { from, kProcess } });
+                                             { from, kProcess } }) +
+                               color_space({ "srisp scene linear",
+                                             "srisp_scene_linear",
+                                             "What the reference's camera would have recorded, developed, with sRGB "
+                                             "primaries. Converting a photo to this space unprocesses and develops it.",
+                                             "scene-linear",
+                                             { to_aces, kUndevelop, kProcess, kDecode, to },
+                                             { from, kEncode, kUnprocess, kDevelop, from_aces } }) +
+                               color_space({ "srisp ACEScg",
+                                             "srisp_acescg",
+                                             "The same with the primaries of ACEScg.",
+                                             "scene-linear",
+                                             { kFromAcescg, kUndevelop, kProcess, kDecode, to },
+                                             { from, kEncode, kUnprocess, kDevelop, kToAcescg } }) +
+                               color_space({ "srisp photo",
+                                             "srisp_photo",
+                                             "A photo as the scene that the reference's camera would have seen: read in "
+                                             "this space, it is developed into the working space.",
+                                             "sdr-video",
+                                             { kUnprocess, kDevelop, from_aces, to },
+                                             { from, to_aces, kUndevelop, kProcess } });
     return { lines_of(looks), lines_of(spaces) };
 }
 

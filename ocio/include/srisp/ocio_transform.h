@@ -6,6 +6,7 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 #include <srisp/apply.h>
+#include <srisp/develop.h>
 #include <srisp/expected.h>
 #include <srisp/export.h>
 #include <srisp/parameters.h>
@@ -39,5 +40,12 @@ struct ClfLabel {
 /// bit. [S-2014-006]
 SRISP_API Expected<std::string> make_clf(const Model& model, const Parameters& parameters, Direction direction,
                                          const ClfLabel& label, int lut_size = kDefaultLut);
+
+/// A development as a group of transforms, exact: a matrix, a limit where highlights are clipped, a matrix. OpenColorIO's
+/// inverse of it is undo_development. Error: highlights that are blended, which is neither.
+SRISP_API Expected<OCIO_NAMESPACE::GroupTransformRcPtr> make_ocio_development(const Development& development);
+
+/// The same as the text of a CLF file.
+SRISP_API Expected<std::string> make_development_clf(const Development& development, const ClfLabel& label);
 
 } // namespace srisp

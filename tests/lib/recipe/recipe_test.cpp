@@ -99,7 +99,7 @@ TEST_CASE("jobs have actions, recipes have sources")
     CHECK(job.action == Recipe::Action::save);
     CHECK(job.file == "p.json");
     CHECK(has(refused(R"({"format": "srisp-recipe-1", "source": "p.jpg", "action": "print"})"),
-              "'action': a recipe can apply, read or sensor"));
+              "'action': a recipe can apply, read, sensor or develop"));
     CHECK(good(R"({"format": "srisp-recipe-1", "source": "p.jpg", "action": "read"})").action == Recipe::Action::read);
     CHECK(good(R"({"format": "srisp-recipe-1", "source": "p.#.jpg", "action": "read"})", true).source ==
           "/shots/p.#.jpg");

@@ -30,6 +30,9 @@ TEST_CASE("options that go together pass, others are named")
     CHECK(complaint("--reference r --direction process").find("2: --direction belongs to one file") == 0);
     CHECK(complaint("--reference r -o x.cube --cube").find("2: --cube belongs to a pair") == 0);
     CHECK(complaint("--reference r --watch --json").find("2: --watch never ends") == 0);
+    CHECK(complaint("--reference r -o x.cube --direction develop").find("2: a development takes values of any size") == 0);
+    CHECK(complaint("--reference r --highlights blend").find("2: highlights that are blended have no OpenColorIO") == 0);
+    CHECK(complaint("--reference r --exposure much").find("2: exposure 'much' is no number") == 0);
     CHECK(complaint("--fragment c --reference r").find("2: --fragment extends a config") == 0);
     CHECK(complaint("--reference r --linear-srgb x").find("2: --linear-srgb belongs to --fragment") == 0);
 }
@@ -38,7 +41,7 @@ static std::string joined(const std::vector<OutputName>& names)
 {
     std::string text;
     for (const OutputName& name : names)
-        text += name.path + (name.direction == Direction::reverse ? " <\n" : " >\n");
+        text += name.path + " " + kind_name(name.kind) + "\n";
     return text;
 }
 
@@ -46,11 +49,14 @@ TEST_CASE("a pair is named after the reference or what -o says, and one file is 
 {
     const ScratchFolder folder;
     const std::string raw = folder.path("r.dng");
-    CHECK(joined(output_names(raw, "", "", false)) == raw + ".unprocess.clf <\n" + raw + ".process.clf >\n");
+    CHECK(joined(output_names(raw, "", "", false)) == raw + ".unprocess.clf unprocess\n" + raw +
+                                                          ".process.clf process\n" + raw + ".develop.clf develop\n");
     CHECK(joined(output_names(raw, "x", "", true)) ==
-          "x.unprocess.clf <\nx.process.clf >\nx.unprocess.cube <\nx.process.cube >\n");
-    CHECK(joined(output_names(raw, "y.clf", "", false)) == "y.clf <\n");
-    CHECK(joined(output_names(raw, "y.cube", "process", false)) == "y.cube >\n");
+          "x.unprocess.clf unprocess\nx.process.clf process\nx.develop.clf develop\n"
+          "x.unprocess.cube unprocess\nx.process.cube process\n");
+    CHECK(joined(output_names(raw, "y.clf", "", false)) == "y.clf unprocess\n");
+    CHECK(joined(output_names(raw, "y.cube", "process", false)) == "y.cube process\n");
+    CHECK(joined(output_names(raw, "y.clf", "develop", false)) == "y.clf develop\n");
 }
 
 TEST_CASE("a bake of another reference is not overwritten, one of the same is")
