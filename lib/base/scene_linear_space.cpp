@@ -8,9 +8,14 @@ namespace srisp {
 
 namespace {
 
-SceneLinearSpace rgb_space(const char* name, const char* interop_id, std::vector<const char*> aliases, const Chromaticities& chromaticities)
+SceneLinearSpace rgb_space(const char* name, const char* interop_id, std::vector<const char*> aliases,
+                           const Chromaticities& chromaticities)
 {
-    return { name, interop_id, std::move(aliases), chromaticities, white_of(chromaticities),
+    return { name,
+             interop_id,
+             std::move(aliases),
+             chromaticities,
+             white_of(chromaticities),
              inverse(rgb_to_xyz(chromaticities)) };
 }
 
@@ -28,8 +33,8 @@ const std::vector<SceneLinearSpace>& scene_linear_spaces()
         rgb_space("ACEScg", "lin_ap1_scene", { "lin_ap1", "ACES - ACEScg" }, kAp1Chromaticities),
         rgb_space("ACES2065-1", "lin_ap0_scene", { "lin_ap0", "ACES - ACES2065-1" }, kAp0Chromaticities),
         rgb_space("lin_rec709", "lin_rec709_scene",
-                  { "lin_srgb", "Linear Rec.709 (sRGB)", "Linear Rec.709", "linear - sRGB",
-                    "Utility - Linear - sRGB", "Utility - Linear - Rec.709" },
+                  { "lin_srgb", "Linear Rec.709 (sRGB)", "Linear Rec.709", "linear - sRGB", "Utility - Linear - sRGB",
+                    "Utility - Linear - Rec.709" },
                   kSrgbChromaticities),
         rgb_space("lin_rec2020", "lin_rec2020_scene", { "Linear Rec.2020", "Utility - Linear - Rec.2020" },
                   kRec2020Chromaticities),
@@ -49,8 +54,9 @@ const std::vector<SceneLinearSpace>& scene_linear_spaces()
 const SceneLinearSpace* find_scene_linear_space(const std::string& name)
 {
     for (const SceneLinearSpace& space : scene_linear_spaces())
-        if (same_name(name, space.name) || same_name(name, space.interop_id) || std::any_of(space.aliases.begin(), space.aliases.end(),
-                                                       [&](const char* alias) { return same_name(name, alias); }))
+        if (same_name(name, space.name) || same_name(name, space.interop_id) ||
+            std::any_of(space.aliases.begin(), space.aliases.end(),
+                        [&](const char* alias) { return same_name(name, alias); }))
             return &space;
     return nullptr;
 }

@@ -15,7 +15,8 @@ using ColorMatrix = CameraFacts::ColorMatrix;
 
 bool is_invertible(const Matrix3& m)
 {
-    return std::all_of(m.begin(), m.end(), [](float v) { return std::isfinite(v); }) && std::fabs(determinant(m)) > 1e-6;
+    return std::all_of(m.begin(), m.end(), [](float v) { return std::isfinite(v); }) &&
+           std::fabs(determinant(m)) > 1e-6;
 }
 
 bool is_positive(const Vector3& v)
@@ -128,8 +129,7 @@ Matrix3 balanced_to_xyz(const CameraFacts& facts, const Vector3& neutral)
     const bool forward = std::all_of(matrices.begin(), matrices.end(), has_forward);
     const Xy light = matrices.size() == 1 ? light_of(matrices[0]) : light_of_neutral(matrices, neutral);
     if (forward)
-        return white_to_d50(mix(matrices.front().forward, matrices.back().forward,
-                                weight_of_warmer(matrices, light)));
+        return white_to_d50(mix(matrices.front().forward, matrices.back().forward, weight_of_warmer(matrices, light)));
     const Matrix3 xyz_to_camera = xyz_to_camera_under(matrices, light);
     const Vector3 white = matrices.size() == 1 ? product(xyz_to_camera, xyz_of(light)) : neutral;
     const Matrix3 to_xyz = product(inverse(xyz_to_camera), diagonal(white));

@@ -18,10 +18,10 @@ struct Uv {
 
 Uv locus(double t)
 {
-    return { (0.860117757 + 1.54118254e-4 * t + 1.28641212e-7 * t * t) /
-                 (1 + 8.42420235e-4 * t + 7.08145163e-7 * t * t),
-             (0.317398726 + 4.22806245e-5 * t + 4.20481691e-8 * t * t) /
-                 (1 - 2.89741816e-5 * t + 1.61456053e-7 * t * t) };
+    return {
+        (0.860117757 + 1.54118254e-4 * t + 1.28641212e-7 * t * t) / (1 + 8.42420235e-4 * t + 7.08145163e-7 * t * t),
+        (0.317398726 + 4.22806245e-5 * t + 4.20481691e-8 * t * t) / (1 - 2.89741816e-5 * t + 1.61456053e-7 * t * t)
+    };
 }
 
 /// Across the locus at t, of length 1, to greener lights.
@@ -79,11 +79,13 @@ const Xy* xy_of_light_source(int code)
     const auto planck = [](float temperature) { return xy_of_light({ temperature, 0 }); };
     // Ranges of fluorescent lamps: their middles [Exif 2.3, LightSource].
     static const std::map<int, Xy> known = {
-        { 1, kD55 },           { 2, planck(4150) },   { 3, kA },             { 4, kD55 },   { 9, kD55 },
-        { 10, kD65 },          { 11, kD75 },          { 12, planck(6400) },  { 13, planck(5050) },
-        { 14, planck(4150) },  { 15, planck(3450) },  { 16, planck(2925) },  { 17, kA },    { 18, kB },
-        { 19, kC },            { 20, kD55 },          { 21, kD65 },          { 22, kD75 },  { 23, kD50 },
-        { 24, planck(3200) },
+        { 1, kD55 },          { 2, planck(4150) },  { 3, kA },
+        { 4, kD55 },          { 9, kD55 },          { 10, kD65 },
+        { 11, kD75 },         { 12, planck(6400) }, { 13, planck(5050) },
+        { 14, planck(4150) }, { 15, planck(3450) }, { 16, planck(2925) },
+        { 17, kA },           { 18, kB },           { 19, kC },
+        { 20, kD55 },         { 21, kD65 },         { 22, kD75 },
+        { 23, kD50 },         { 24, planck(3200) },
     };
     const auto found = known.find(code);
     return found == known.end() ? nullptr : &found->second;

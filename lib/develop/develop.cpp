@@ -64,9 +64,8 @@ inline float saturation(float alpha)
     return alpha > 0 ? alpha : 1;
 }
 
-template<Highlights highlights>
-void develop_row(const Development& d, const float* in, std::ptrdiff_t in_stride, const float* alpha, float* out,
-                 std::ptrdiff_t out_stride, int width)
+template<Highlights highlights> void develop_row(const Development& d, const float* in, std::ptrdiff_t in_stride,
+                                                 const float* alpha, float* out, std::ptrdiff_t out_stride, int width)
 {
     for (int x = 0; x < width; ++x) {
         float v[3];

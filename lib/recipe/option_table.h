@@ -47,7 +47,8 @@ using OptionTarget =
     std::variant<std::string Recipe::*, std::vector<std::string> Recipe::*, std::optional<Parameters> Recipe::*,
                  bool Recipe::*, std::uint64_t Recipe::*, Direction Recipe::*, InputEncoding Recipe::*,
                  GainMapUse Recipe::*, Precision Recipe::*, std::optional<Mosaic> Recipe::*, Levels Recipe::*,
-                 Recipe::Action Recipe::*, std::optional<Brightness> Recipe::*, WhiteBalance Recipe::*, double Recipe::*, Highlights Recipe::*>;
+                 Recipe::Action Recipe::*, std::optional<Brightness> Recipe::*, WhiteBalance Recipe::*,
+                 double Recipe::*, Highlights Recipe::*>;
 
 /// One option: all that recipes, queries, hints, srisptool and its help know of it.
 struct Option {

@@ -14,9 +14,9 @@ namespace srisp {
 struct Recipe : Options {
     enum class Action {
         apply,
-        print, ///< the parameters that would be applied
-        save,  ///< the parameters recorded in the image
-        read,  ///< gives the source as it is, its description put right
+        print,  ///< the parameters that would be applied
+        save,   ///< the parameters recorded in the image
+        read,   ///< gives the source as it is, its description put right
         sensor, ///< only mosaic and noise: the source is RAW-like already
         develop ///< only development: the source is RAW-like, or a camera's RAW file
     };

@@ -72,9 +72,11 @@ Expected<WhiteBalance> parse_white_balance(const std::string& text)
                         [](double v) { return within(kLeastMultiplier, v, kMostMultiplier); }))
             return balance;
     }
-    return Error{ "whitebalance '" + shown_text(text) +
-                  "' is none of: scene; reference; a temperature of 1000 to 25000 K, with a comma and a tint of -200 to "
-                  "200 or without; three multipliers R,G,B of 0.001 to 1000" };
+    return Error{
+        "whitebalance '" + shown_text(text) +
+        "' is none of: scene; reference; a temperature of 1000 to 25000 K, with a comma and a tint of -200 to "
+        "200 or without; three multipliers R,G,B of 0.001 to 1000"
+    };
 }
 
 Expected<double> parse_exposure(const std::string& text)

@@ -38,10 +38,8 @@ const char kReferenceNoiseProfile[] = "unprocess:reference_noise_profile";
 /// The daylight matrix, and one for another light.
 constexpr struct {
     const char *matrix, *illuminant, *forward;
-} kMatrices[] = {
-    { "unprocess:xyz_to_camera", "unprocess:xyz_to_camera_illuminant", "unprocess:forward_matrix" },
-    { "unprocess:xyz_to_camera2", "unprocess:xyz_to_camera2_illuminant", "unprocess:forward_matrix2" }
-};
+} kMatrices[] = { { "unprocess:xyz_to_camera", "unprocess:xyz_to_camera_illuminant", "unprocess:forward_matrix" },
+                  { "unprocess:xyz_to_camera2", "unprocess:xyz_to_camera2_illuminant", "unprocess:forward_matrix2" } };
 
 OIIO::TypeDesc floats(std::size_t count)
 {

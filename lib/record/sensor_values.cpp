@@ -106,7 +106,7 @@ void record_sensor_values(OIIO::ImageSpec& spec, const SensorValues& values)
     }
     const auto before = read_record(spec);
     RecordLine record =
-        before ? *before : RecordLine{ Direction::reverse, "", spec.get_string_attribute("ImageDescription"), "" };
+        before ? *before : RecordLine{ Direction::reverse, "", spec.get_string_attribute("ImageDescription"), "", "" };
     record.sensor = line_of(values);
     write_record(spec, record);
 }

@@ -115,7 +115,8 @@ Expected<std::unique_ptr<PixelSource>> open_camera_file(const std::string& path,
         return Error{ camera.error().message };
     const CameraFacts& facts = (*camera)->facts;
     if (!facts.has_integer_levels())
-        return Error{ where + "is a RAW file that LibRaw does not develop (its levels are no integers of 8 to 16 bits)" };
+        return Error{ where +
+                      "is a RAW file that LibRaw does not develop (its levels are no integers of 8 to 16 bits)" };
     OIIO::ImageSpec hints = config;
     const Scales scales = ask_for_camera_rgb(facts, hints);
     auto file = open_file_source(path, "image", hints);

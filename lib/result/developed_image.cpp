@@ -43,7 +43,7 @@ Expected<DevelopedImage::Level> DevelopedImage::first_look(const OIIO::ImageSpec
     if (record && record->direction == Direction::forward)
         return error("is a processed picture; RAW-like images are developed");
     if (record && !record->development.empty())
-        return error("is developed already, into " + spec.get_string_attribute("oiio:ColorSpace"));
+        return error("is developed already, into " + std::string(spec.get_string_attribute("oiio:ColorSpace")));
     if (spec.get_string_attribute("oiio:ColorSpace") != kCameraColorSpace && !record)
         return error("is neither a RAW-like image of srisp's nor a camera's RAW file; --srisp-unprocess makes one of a "
                      "photo");

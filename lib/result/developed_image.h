@@ -31,7 +31,7 @@ private:
     /// One level of the image.
     struct Level {
         OIIO::ImageSpec spec;
-        int alpha = -1; ///< channel that colour is multiplied with; −1: there is none
+        int alpha = -1;    ///< channel that colour is multiplied with; −1: there is none
         bool full = false; ///< `development`, and all of `spec`, is known
         Development development;
     };

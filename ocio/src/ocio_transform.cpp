@@ -137,8 +137,7 @@ Expected<std::string> make_development_clf(const Development& development, const
 {
     return guarded("CLF", {}, [&]() -> Expected<std::string> {
         const Status bakeable = check_bakeable(development);
-        return bakeable ? Expected<std::string>(clf_text(development_operators(development), label))
-                        : bakeable.error();
+        return bakeable ? Expected<std::string>(clf_text(development_operators(development), label)) : bakeable.error();
     });
 }
 

@@ -135,10 +135,10 @@ BakeReport measured(const OutputName& name, const OCIO::ConstTransformRcPtr& tra
 
 Baked bake_clf(const OutputName& name, const BakeOptions& options, const BakeChoice& choice)
 {
-    const auto operators = name.kind == BakeKind::develop
-                               ? development_operators(choice.development)
-                               : require(pipeline_operators(*choice.model, choice.parameters, direction_of(name.kind),
-                                                            options.lut_size));
+    const auto operators =
+        name.kind == BakeKind::develop
+            ? development_operators(choice.development)
+            : require(pipeline_operators(*choice.model, choice.parameters, direction_of(name.kind), options.lut_size));
     check_interrupt();
     Baked baked{ measured(name, ocio_group(operators), choice), {} };
     const ClfLabel label{ "srisp-" + std::string(kind_name(name.kind)), title(choice, name.kind),
@@ -152,8 +152,7 @@ Baked bake_cube(const OutputName& name, const BakeOptions& options, const BakeCh
     const CubeTable table(choice, direction_of(name.kind), options.lut_size);
     check_interrupt();
     Baked baked{ measured(name, table.transform(), choice), {} };
-    baked.text =
-        table.text(title(choice, name.kind), descriptions(options, choice, name.kind, baked.report.sentence));
+    baked.text = table.text(title(choice, name.kind), descriptions(options, choice, name.kind, baked.report.sentence));
     return baked;
 }
 

@@ -43,7 +43,7 @@ struct BakeChoice {
     std::shared_ptr<const Reference> reference; ///< null where only parameters are given
     std::optional<PhotoSample> photo;           ///< likewise, unless --source is there
     Development development;
-    std::vector<std::string> notes;             ///< about the reference and what was chosen
+    std::vector<std::string> notes; ///< about the reference and what was chosen
 };
 
 /// Loads and chooses what the options ask for. Throws Failure.

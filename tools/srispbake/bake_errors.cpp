@@ -22,9 +22,8 @@ public:
     Renderer(const BakeChoice& choice, BakeKind kind) : m_development(choice.development)
     {
         if (kind != BakeKind::develop)
-            m_applier =
-                require(Applier::create(*choice.model, choice.parameters,
-                                        kind == BakeKind::process ? Direction::forward : Direction::reverse));
+            m_applier = require(Applier::create(*choice.model, choice.parameters,
+                                                kind == BakeKind::process ? Direction::forward : Direction::reverse));
     }
     Pixels operator()(Pixels rgb) const
     {

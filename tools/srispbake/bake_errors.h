@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <OpenColorIO/OpenColorIO.h>
 #include "bake_choice.h"
+#include <OpenColorIO/OpenColorIO.h>
 
 namespace srisp::tool {
 
@@ -26,7 +26,6 @@ struct BakeErrors {
 };
 
 /// Applies the bake as a host does (CPU, default optimisation). Throws Failure.
-BakeErrors measure_errors(const OCIO_NAMESPACE::ConstTransformRcPtr& bake, const BakeChoice& choice,
-                          BakeKind kind);
+BakeErrors measure_errors(const OCIO_NAMESPACE::ConstTransformRcPtr& bake, const BakeChoice& choice, BakeKind kind);
 
 } // namespace srisp::tool

@@ -18,10 +18,10 @@ struct BakeOptions : CommonOptions {
     std::string reference, source, parameters, model = "default", output;
     std::string direction; ///< of a single file: "unprocess", "process" or "develop"
     int lut_size = kDefaultLut;
-    std::string fragment;    ///< a config to be extended
-    std::string linear_srgb; ///< the name of that colour space in it; empty: found by itself
-    std::string brightness;  ///< EV, or "sample"; empty: as it was chosen
-    std::uint64_t seed = 0;  ///< of a sampled brightness
+    std::string fragment;                            ///< a config to be extended
+    std::string linear_srgb;                         ///< the name of that colour space in it; empty: found by itself
+    std::string brightness;                          ///< EV, or "sample"; empty: as it was chosen
+    std::uint64_t seed = 0;                          ///< of a sampled brightness
     std::string white_balance, exposure, highlights; ///< of the development; empty: the defaults
     bool cube = false, watch = false, allow_partial = false;
 };

@@ -141,7 +141,8 @@ void check_extended(const OCIO::ConstConfigRcPtr& extended, const OCIO::ConstCon
         fail("what was there would not stay as it is; nothing is written (add the entries of srisp.ocio by hand)");
     const auto context = extended->getCurrentContext()->createEditableCopy();
     context->setStringVar(kVariable, kNeutral);
-    for (const char* name : { "srisp camera RGB", "srisp process", "srisp scene linear", "srisp ACEScg", "srisp photo" })
+    for (const char* name :
+         { "srisp camera RGB", "srisp process", "srisp scene linear", "srisp ACEScg", "srisp photo" })
         extended->getProcessor(context, "srisp sRGB", name);
     for (const std::string& name : kAddedLooks) {
         auto look = OCIO::LookTransform::Create();

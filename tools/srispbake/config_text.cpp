@@ -132,8 +132,8 @@ const char kDecode[] = "!<ExponentWithLinearTransform> {gamma: 2.4, offset: 0.05
 const char kEncode[] = "!<ExponentWithLinearTransform> {gamma: 2.4, offset: 0.055, direction: inverse}";
 
 /// ACES2065-1 → linear sRGB, white to white (Bradford).
-constexpr std::array<double, 9> kAcesToLinearSrgb = { 2.52168618674,   -1.13413098824, -0.387555198504,
-                                                      -0.27647991423,  1.37271908767,  -0.0962391734383,
+constexpr std::array<double, 9> kAcesToLinearSrgb = { 2.52168618674,   -1.13413098824,  -0.387555198504,
+                                                      -0.27647991423,  1.37271908767,   -0.0962391734383,
                                                       -0.015378064966, -0.152975335867, 1.16835340083 };
 
 std::string matrix_text(const std::array<double, 9>& m, const char* direction)
@@ -193,8 +193,9 @@ const std::vector<std::string> kAddedLooks = { "srisp unprocess", "srisp process
 const std::vector<std::string> kAddedColorSpaces = { "srisp linear sRGB", "srisp sRGB",         "srisp camera RGB",
                                                      "srisp process",     "srisp scene linear", "srisp ACEScg",
                                                      "srisp photo" };
-const std::vector<std::string> kAddedAliases = { "srisp_linear_srgb",  "srisp_srgb",   "camera_rgb", "srisp_camera_rgb", "srisp_process",
-                                                 "srisp_scene_linear", "srisp_acescg", "srisp_photo" };
+const std::vector<std::string> kAddedAliases = { "srisp_linear_srgb", "srisp_srgb",    "camera_rgb",
+                                                 "srisp_camera_rgb",  "srisp_process", "srisp_scene_linear",
+                                                 "srisp_acescg",      "srisp_photo" };
 
 ConfigEntries config_entries(const std::array<double, 9>& to_reference)
 {
@@ -207,50 +208,51 @@ ConfigEntries config_entries(const std::array<double, 9>& to_reference)
         look("srisp process", "srisp linear sRGB",
              "Camera RGB of the reference to the picture. Take linear sRGB as input and output space.", kProcess,
              kUnprocess);
-    const std::string spaces = color_space({ "srisp linear sRGB",
-                                             "srisp_linear_srgb",
-                                             "Linear light with sRGB primaries.",
-                                             "scene-linear",
-                                             { to },
-                                             { from } }) +
-                               color_space({ "srisp sRGB",
-                                             "srisp_srgb",
-                                             "Display-encoded sRGB, as photos are.",
-                                             "sdr-video",
-                                             { kDecode, to },
-                                             { from, kEncode } }) +
-                               color_space({ "srisp camera RGB",
-                                             "camera_rgb, srisp_camera_rgb",
-                                             "Linear camera RGB of the reference, the RAW file SRISP_REFERENCE.",
-                                             "scene-linear",
-                                             { kProcess, kDecode, to },
-                                             { from, kEncode, kUnprocess } }) +
-                               color_space({ "srisp process",
-                                             "srisp_process",
-                                             "The picture of a RAW-like image that the host takes for linear sRGB.",
-                                             "sdr-video",
-                                             { kUnprocess, to },
-                                             { from, kProcess } }) +
-                               color_space({ "srisp scene linear",
-                                             "srisp_scene_linear",
-                                             "What the reference's camera would have recorded, developed, with sRGB "
-                                             "primaries. Converting a photo to this space unprocesses and develops it.",
-                                             "scene-linear",
-                                             { to_aces, kUndevelop, kProcess, kDecode, to },
-                                             { from, kEncode, kUnprocess, kDevelop, from_aces } }) +
-                               color_space({ "srisp ACEScg",
-                                             "srisp_acescg",
-                                             "The same with the primaries of ACEScg.",
-                                             "scene-linear",
-                                             { kFromAcescg, kUndevelop, kProcess, kDecode, to },
-                                             { from, kEncode, kUnprocess, kDevelop, kToAcescg } }) +
-                               color_space({ "srisp photo",
-                                             "srisp_photo",
-                                             "A photo as the scene that the reference's camera would have seen: read in "
-                                             "this space, it is developed into the working space.",
-                                             "sdr-video",
-                                             { kUnprocess, kDevelop, from_aces, to },
-                                             { from, to_aces, kUndevelop, kProcess } });
+    const std::string spaces =
+        color_space({ "srisp linear sRGB",
+                      "srisp_linear_srgb",
+                      "Linear light with sRGB primaries.",
+                      "scene-linear",
+                      { to },
+                      { from } }) +
+        color_space({ "srisp sRGB",
+                      "srisp_srgb",
+                      "Display-encoded sRGB, as photos are.",
+                      "sdr-video",
+                      { kDecode, to },
+                      { from, kEncode } }) +
+        color_space({ "srisp camera RGB",
+                      "camera_rgb, srisp_camera_rgb",
+                      "Linear camera RGB of the reference, the RAW file SRISP_REFERENCE.",
+                      "scene-linear",
+                      { kProcess, kDecode, to },
+                      { from, kEncode, kUnprocess } }) +
+        color_space({ "srisp process",
+                      "srisp_process",
+                      "The picture of a RAW-like image that the host takes for linear sRGB.",
+                      "sdr-video",
+                      { kUnprocess, to },
+                      { from, kProcess } }) +
+        color_space({ "srisp scene linear",
+                      "srisp_scene_linear",
+                      "What the reference's camera would have recorded, developed, with sRGB "
+                      "primaries. Converting a photo to this space unprocesses and develops it.",
+                      "scene-linear",
+                      { to_aces, kUndevelop, kProcess, kDecode, to },
+                      { from, kEncode, kUnprocess, kDevelop, from_aces } }) +
+        color_space({ "srisp ACEScg",
+                      "srisp_acescg",
+                      "The same with the primaries of ACEScg.",
+                      "scene-linear",
+                      { kFromAcescg, kUndevelop, kProcess, kDecode, to },
+                      { from, kEncode, kUnprocess, kDevelop, kToAcescg } }) +
+        color_space({ "srisp photo",
+                      "srisp_photo",
+                      "A photo as the scene that the reference's camera would have seen: read in "
+                      "this space, it is developed into the working space.",
+                      "sdr-video",
+                      { kUnprocess, kDevelop, from_aces, to },
+                      { from, to_aces, kUndevelop, kProcess } });
     return { lines_of(looks), lines_of(spaces) };
 }
 

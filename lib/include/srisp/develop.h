@@ -34,8 +34,8 @@ struct DevelopSource {
 
 /// Chooses the development that `options` ask for (develop, white_balance, exposure, highlights). Matrices as in the
 /// DNG specification: two are interpolated for the light that the neutral tells, forward matrices are taken where there
-/// are, white is adapted by Bradford; a single one, and balance in camera RGB, as in LibRaw and dcraw. `notes`: what was
-/// assumed. Errors: a space that is not known (the known ones listed), a light without a matrix, no matrix and no
+/// are, white is adapted by Bradford; a single one, and balance in camera RGB, as in LibRaw and dcraw. `notes`: what
+/// was assumed. Errors: a space that is not known (the known ones listed), a light without a matrix, no matrix and no
 /// parameters.
 SRISP_API Expected<Development> choose_development(const DevelopSource& source, const Options& options,
                                                    std::vector<std::string>& notes);

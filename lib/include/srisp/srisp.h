@@ -61,11 +61,12 @@ SRISP_API Expected<Image> unprocess(const std::string& photo_path, const std::st
                                     const Options& options = {});
 
 /// A RAW-like image of ours, or a camera's RAW file (LibRaw demosaics it) → scene-linear colour, in the space that
-/// `options.develop` names, else ACEScg. unprocess() with options.develop does both at once. Errors: as there, and those
-/// of choose_development.
+/// `options.develop` names, else ACEScg. unprocess() with options.develop does both at once. Errors: as there, and
+/// those of choose_development.
 SRISP_API Expected<Image> develop(const std::string& raw_path, const Options& options = {});
 
-/// A RAW-like image, or one that was developed → a display-encoded photo, by the parameters that the image records or `options` give.
+/// A RAW-like image, or one that was developed → a display-encoded photo, by the parameters that the image records or
+/// `options` give.
 SRISP_API Expected<Image> process(const std::string& raw_path, const Options& options = {});
 
 } // namespace srisp

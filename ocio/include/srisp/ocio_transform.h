@@ -41,8 +41,8 @@ struct ClfLabel {
 SRISP_API Expected<std::string> make_clf(const Model& model, const Parameters& parameters, Direction direction,
                                          const ClfLabel& label, int lut_size = kDefaultLut);
 
-/// A development as a group of transforms, exact: a matrix, a limit where highlights are clipped, a matrix. OpenColorIO's
-/// inverse of it is undo_development. Error: highlights that are blended, which is neither.
+/// A development as a group of transforms, exact: a matrix, a limit where highlights are clipped, a matrix.
+/// OpenColorIO's inverse of it is undo_development. Error: highlights that are blended, which is neither.
 SRISP_API Expected<OCIO_NAMESPACE::GroupTransformRcPtr> make_ocio_development(const Development& development);
 
 /// The same as the text of a CLF file.

@@ -188,9 +188,11 @@ TEST_CASE("many rows on many threads are what one row is, and NaN stays where it
     REQUIRE(develop(development, { in.data(), width, height, 3, 3 * width },
                     { out.data(), width, height, 3, 3 * width }, nullptr, 0));
     for (std::size_t pixel = 0; pixel < in.size() / 3; ++pixel) {
-        const std::vector<float> alone = developed(development, { in[pixel * 3], in[pixel * 3 + 1], in[pixel * 3 + 2] });
+        const std::vector<float> alone =
+            developed(development, { in[pixel * 3], in[pixel * 3 + 1], in[pixel * 3 + 2] });
         for (std::size_t c = 0; c < 3; ++c)
-            CHECK((std::isnan(alone[c]) ? std::isnan(out[pixel * 3 + c]) && pixel == 33 : alone[c] == out[pixel * 3 + c]));
+            CHECK((std::isnan(alone[c]) ? std::isnan(out[pixel * 3 + c]) && pixel == 33
+                                        : alone[c] == out[pixel * 3 + c]));
     }
 }
 

@@ -30,8 +30,10 @@ TEST_CASE("options that go together pass, others are named")
     CHECK(complaint("--reference r --direction process").find("2: --direction belongs to one file") == 0);
     CHECK(complaint("--reference r -o x.cube --cube").find("2: --cube belongs to a pair") == 0);
     CHECK(complaint("--reference r --watch --json").find("2: --watch never ends") == 0);
-    CHECK(complaint("--reference r -o x.cube --direction develop").find("2: a development takes values of any size") == 0);
-    CHECK(complaint("--reference r --highlights blend").find("2: highlights that are blended have no OpenColorIO") == 0);
+    CHECK(complaint("--reference r -o x.cube --direction develop").find("2: a development takes values of any size") ==
+          0);
+    CHECK(complaint("--reference r --highlights blend").find("2: highlights that are blended have no OpenColorIO") ==
+          0);
     CHECK(complaint("--reference r --exposure much").find("2: exposure 'much' is no number") == 0);
     CHECK(complaint("--fragment c --reference r").find("2: --fragment extends a config") == 0);
     CHECK(complaint("--reference r --linear-srgb x").find("2: --linear-srgb belongs to --fragment") == 0);
@@ -49,8 +51,8 @@ TEST_CASE("a pair is named after the reference or what -o says, and one file is 
 {
     const ScratchFolder folder;
     const std::string raw = folder.path("r.dng");
-    CHECK(joined(output_names(raw, "", "", false)) == raw + ".unprocess.clf unprocess\n" + raw +
-                                                          ".process.clf process\n" + raw + ".develop.clf develop\n");
+    CHECK(joined(output_names(raw, "", "", false)) ==
+          raw + ".unprocess.clf unprocess\n" + raw + ".process.clf process\n" + raw + ".develop.clf develop\n");
     CHECK(joined(output_names(raw, "x", "", true)) ==
           "x.unprocess.clf unprocess\nx.process.clf process\nx.develop.clf develop\n"
           "x.unprocess.cube unprocess\nx.process.cube process\n");
