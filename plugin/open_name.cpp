@@ -15,6 +15,7 @@
 #include "photo/pixel_source.h"
 #include "process_state.h"
 #include "recipe/frame_pattern.h"
+#include "result/recipe_source.h"
 
 namespace srisp::plugin {
 

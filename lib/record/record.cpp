@@ -143,6 +143,15 @@ std::string recorded_development(const OIIO::ImageSpec& spec)
     return record ? record->development : "";
 }
 
+std::string recorded_space(const OIIO::ImageSpec& spec)
+{
+    const auto development = parse_json<json>(recorded_development(spec));
+    if (!development || !development->is_object())
+        return {};
+    const auto space = development->find("space");
+    return space != development->end() && space->is_string() ? space->get<std::string>() : std::string();
+}
+
 void append_history(OIIO::ImageSpec& spec, const std::string& command)
 {
     const std::string history = spec.get_string_attribute(kHistory);

@@ -70,6 +70,8 @@ SensorValues recorded_sensor_values(const OIIO::ImageSpec& spec);
 void record_development(OIIO::ImageSpec& spec, const SceneLinearSpace& space, const std::string& development);
 /// The same as recorded; empty: the image is not developed, or not by us.
 std::string recorded_development(const OIIO::ImageSpec& spec);
+/// The space of such an image; empty: not known. (Of "oiio:ColorSpace" readers have ideas of their own.)
+std::string recorded_space(const OIIO::ImageSpec& spec);
 
 /// Adds a command to the image's history, once: a command line may hold several of our commands.
 void append_history(OIIO::ImageSpec& spec, const std::string& command);

@@ -30,7 +30,7 @@ Status check_kind(const OIIO::ImageSpec& spec, bool tiff)
     const std::string encoding = spec.get_string_attribute("oiio:ColorSpace");
     const bool processed = !spec.get_string_attribute(attribute::kSynthetic).empty();
     if (!recorded_development(spec).empty())
-        return Error{ "is developed into " + encoding +
+        return Error{ "is developed into " + shown_text(recorded_space(spec)) +
                       " and cannot be a reference: give the RAW-like image, or a RAW file" };
     if (is_unprocessed(spec)) {
         if (tiff && spec.format != OIIO::TypeUInt16 && !spec.format.is_floating_point())

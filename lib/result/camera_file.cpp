@@ -45,6 +45,7 @@ Scales ask_for_camera_rgb(const CameraFacts& facts, OIIO::ImageSpec& hints)
     hints.attribute("raw:use_camera_matrix", 0);
     hints.attribute("raw:user_flip", 0);
     hints.attribute("raw:Demosaic", "AHD");
+    hints.attribute("raw:balance_clamped", 0);
     hints.attribute("raw:HighlightMode", 1); // scales down to the largest factor, so nothing is clipped
     const Scales balance = balance_of(facts);
     std::array<float, kFilters> ranges{}, factors{};

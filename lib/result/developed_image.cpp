@@ -7,6 +7,7 @@
 #include <srisp/metadata.h>
 
 #include "base/scene_linear_space.h"
+#include "base/shown_text.h"
 #include "photo/color_channels.h"
 #include "record/record.h"
 #include "result/kept_results.h"
@@ -43,8 +44,10 @@ Expected<DevelopedImage::Level> DevelopedImage::first_look(const OIIO::ImageSpec
     if (record && record->direction == Direction::forward)
         return error("is a processed picture; RAW-like images are developed");
     if (record && !record->development.empty())
-        return error("is developed already, into " + std::string(spec.get_string_attribute("oiio:ColorSpace")));
-    if (spec.get_string_attribute("oiio:ColorSpace") != kCameraColorSpace && !record)
+        return error("is developed already, into " + shown_text(recorded_space(spec)));
+    const bool camera_rgb = spec.get_string_attribute("oiio:ColorSpace") == kCameraColorSpace ||
+                            spec.get_string_attribute(attribute::kColorSpace) == kCameraColorSpace;
+    if (!camera_rgb && !record)
         return error("is neither a RAW-like image of srisp's nor a camera's RAW file; --srisp-unprocess makes one of a "
                      "photo");
     if (!recorded_sensor_values(spec).cfa_pattern.empty())

@@ -75,12 +75,12 @@ alpha() {
 check "with alpha as without" alpha
 
 tags() {
-    [ "$(value one.exr oiio:ColorSpace)" = '"ACEScg"' ] && [ "$(value one.exr colorInteropID)" = '"lin_ap1_scene"' ] &&
+    [ "$(value one.exr unprocess:colorspace)" = '"ACEScg"' ] && [ "$(value one.exr colorInteropID)" = '"lin_ap1_scene"' ] &&
         value one.exr chromaticities | grep -q '0.713, 0.293' && value one.exr adoptedNeutral | grep -q '0.32168'
 }
 check "tags of ACEScg" tags
 no_tags() { # camera RGB has no chromaticities and no name of a space
-    [ "$(value raw.exr oiio:ColorSpace)" = '"camera_rgb"' ] && [ -z "$(value raw.exr colorInteropID)" ] &&
+    [ "$(value raw.exr unprocess:colorspace)" = '"camera_rgb"' ] && [ -z "$(value raw.exr colorInteropID)" ] &&
         [ -z "$(value raw.exr chromaticities)" ]
 }
 check "none of them on camera RGB" no_tags
@@ -93,7 +93,7 @@ check "nor a photo's" stray_tag
 
 camera_file() { # white balance of the file, and upright by its tag
     "$tool" "$reference" --srisp-develop ACEScg -o:datatype=float camera.exr &&
-        [ "$(value camera.exr oiio:ColorSpace)" = '"ACEScg"' ] && [ -z "$(value camera.exr unprocess:record)" ] &&
+        [ "$(value camera.exr colorInteropID)" = '"lin_ap1_scene"' ] && value camera.exr chromaticities | grep -q '0.713, 0.293' && [ -z "$(value camera.exr unprocess:record)" ] &&
         ! says 1 x "$tool" camera.exr --srisp-process -o camera.png 2>/dev/null
 }
 check "a camera's file" camera_file

@@ -199,7 +199,7 @@ def chart_errors(world, sensitivities, light, forward):
     white = np.ones((1, world.chart.shape[1]))
     raw_white, xyz_white = (world.seen_by(each, white, light)[0] for each in (sensitivities, world.observer))
     spec = oiio.ImageSpec(6, 4, 3, "float")
-    spec.attribute("oiio:ColorSpace", "camera_rgb")
+    spec.attribute("unprocess:colorspace", "camera_rgb")
     spec.attribute("unprocess:neutral", "float[3]", tuple(raw_white / raw_white[1]))
     for name, value in camera_attributes(world, sensitivities).items():
         if np.ndim(value) == 0:

@@ -26,6 +26,8 @@ bool at_default(const Option& option, const Recipe& recipe)
             if constexpr (std::is_same_v<decltype(member), std::optional<Parameters> Recipe::*> ||
                           std::is_same_v<decltype(member), std::optional<Brightness> Recipe::*>)
                 return true;
+            else if constexpr (std::is_same_v<decltype(member), WhiteBalance Recipe::*>)
+                return (set.*member).kind == (recipe.*member).kind;
             else
                 return set.*member == recipe.*member;
         },
