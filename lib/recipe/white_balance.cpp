@@ -14,8 +14,8 @@ namespace srisp {
 
 namespace {
 
-constexpr double kLowestKelvin = 1000, kHighestKelvin = 25000, kMostTint = 200, kLeastMultiplier = 1e-3,
-                 kMostMultiplier = 1e3, kMostExposure = 20;
+constexpr double kLowestKelvin = 1000, kHighestKelvin = 25000, kMostTint = 200, kLeastMultiplier = 1e-5,
+                 kMostMultiplier = 1e5, kMostExposure = 20;
 
 std::optional<double> parse_number(std::string_view text)
 {
@@ -75,7 +75,7 @@ Expected<WhiteBalance> parse_white_balance(const std::string& text)
     return Error{
         "whitebalance '" + shown_text(text) +
         "' is none of: scene; reference; a temperature of 1000 to 25000 K, with a comma and a tint of -200 to "
-        "200 or without; three multipliers R,G,B of 0.001 to 1000"
+        "200 or without; three multipliers R,G,B of 0.00001 to 100000"
     };
 }
 

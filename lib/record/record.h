@@ -37,10 +37,10 @@ constexpr char kNoiseProfile[] = "unprocess:noise_profile"; ///< shot and read n
 /// The line in a result's ImageDescription.
 struct RecordLine {
     Direction direction = Direction::reverse;
-    std::string parameters;  ///< JSON object as srisp::to_json writes; empty: not known yet
-    std::string description; ///< the source's own ImageDescription
-    std::string sensor;      ///< JSON object of SensorValues; empty: there are none
-    std::string development; ///< JSON object of what made scene-linear colour of camera RGB; empty: it is camera RGB
+    std::string parameters;    ///< JSON object as srisp::to_json writes; empty: not known yet
+    std::string description;   ///< the source's own ImageDescription
+    std::string sensor;        ///< JSON object of SensorValues; empty: there are none
+    std::string development{}; ///< JSON object of what made scene-linear colour of camera RGB; empty: it is camera RGB
 };
 
 /// How the values of a result follow a sensor: as attributes, and in the line, which TIFF and PNG keep, too.

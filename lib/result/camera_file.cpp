@@ -10,6 +10,7 @@
 #include <srisp/metadata.h>
 #include <srisp/reference.h>
 
+#include "camera/camera_color.h"
 #include "container/file_description.h"
 #include "record/record.h"
 
@@ -22,18 +23,22 @@ constexpr int kFilters = 4; // R, G, B, second G
 /// By what LibRaw multiplies R, G and B.
 using Scales = std::array<float, 3>;
 
-/// White balance, without which it would not demosaic well, limited to what light can ask for.
+/// White balance, as shot or else for daylight, without which it would not demosaic well; limited to what light can ask
+/// for.
 Scales balance_of(const CameraFacts& facts)
 {
     constexpr float kMost = 16;
+    const bool as_shot = facts.as_shot_neutral[1] > 0;
+    const std::array<float, 3> neutral =
+        as_shot || !has_camera_color(facts) ? facts.as_shot_neutral : neutral_under(facts, kD65);
     Scales balance{ 1, 1, 1 };
     for (std::size_t c = 0; c < 3; ++c)
-        if (const float neutral = facts.as_shot_neutral[c]; neutral > 0 && std::isfinite(neutral))
-            balance[c] = std::clamp(1 / neutral, 1 / kMost, kMost);
+        if (neutral[c] > 0 && std::isfinite(neutral[c]))
+            balance[c] = std::clamp(1 / neutral[c], 1 / kMost, kMost);
     return balance;
 }
 
-/// Asks LibRaw for linear camera RGB, balanced so that nothing is above its largest value; returns what undoes that.
+/// Asks LibRaw for linear camera RGB, balanced; returns what undoes that.
 Scales ask_for_camera_rgb(const CameraFacts& facts, OIIO::ImageSpec& hints)
 {
     auto& all = hints.extra_attribs;
@@ -45,8 +50,6 @@ Scales ask_for_camera_rgb(const CameraFacts& facts, OIIO::ImageSpec& hints)
     hints.attribute("raw:use_camera_matrix", 0);
     hints.attribute("raw:user_flip", 0);
     hints.attribute("raw:Demosaic", "AHD");
-    hints.attribute("raw:balance_clamped", 0);
-    hints.attribute("raw:HighlightMode", 1); // scales down to the largest factor, so nothing is clipped
     const Scales balance = balance_of(facts);
     std::array<float, kFilters> ranges{}, factors{};
     for (std::size_t i = 0; i < kFilters; ++i)
@@ -54,10 +57,14 @@ Scales ask_for_camera_rgb(const CameraFacts& facts, OIIO::ImageSpec& hints)
     const float widest = *std::max_element(ranges.begin(), ranges.end());
     for (std::size_t i = 0; i < kFilters; ++i)
         factors[i] = balance[i == 3 ? 1 : i] * widest / ranges[i];
-    const float most = *std::max_element(factors.begin(), factors.end());
-    hints.attribute("raw:user_sat", int(std::lround(widest)));
+    // LibRaw divides the factors by the least of them, and clips at the level that it is told: so much higher, nothing
+    // is clipped.
+    const auto [least, most] = std::minmax_element(factors.begin(), factors.end());
+    const float level = std::round(widest * *most / *least);
+    hints.attribute("raw:user_sat", int(level));
     hints.attribute("raw:user_mul", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, kFilters), factors.data());
-    return { most / balance[0], most / balance[1], most / balance[2] };
+    const float scale = level * *least / widest;
+    return { scale / balance[0], scale / balance[1], scale / balance[2] };
 }
 
 class CameraFile : public PixelSource {

@@ -93,8 +93,9 @@ check "nor a photo's" stray_tag
 
 camera_file() { # white balance of the file, and upright by its tag
     "$tool" "$reference" --srisp-develop ACEScg -o:datatype=float camera.exr &&
-        [ "$(value camera.exr colorInteropID)" = '"lin_ap1_scene"' ] && value camera.exr chromaticities | grep -q '0.713, 0.293' && [ -z "$(value camera.exr unprocess:record)" ] &&
-        ! says 1 x "$tool" camera.exr --srisp-process -o camera.png 2>/dev/null
+        [ "$(value camera.exr colorInteropID)" = '"lin_ap1_scene"' ] &&
+        value camera.exr chromaticities | grep -q '0.713, 0.293' && [ -z "$(value camera.exr unprocess:record)" ] &&
+        says 1 "is not a RAW-like image of srisp's" "$tool" camera.exr --srisp-process -o camera.png
 }
 check "a camera's file" camera_file
 
