@@ -35,6 +35,13 @@ convert() {
 }
 unprocessed() { convert "$scratch/photo.jpg" "$scratch/blender.exr" sRGB "Linear sRGB" "$camera" && near blender.exr raw.exr 1e-3; }
 processed() { convert "$scratch/raw.exr" "$scratch/blender_back.exr" "Linear sRGB" "Linear sRGB" "$process" && near blender_back.exr back.tif 1e-3; }
+"$tool" raw.exr --srisp-develop lin_rec709 -o:datatype=float developed.exr
+developed() { convert "$scratch/photo.jpg" "$scratch/plate.exr" "srisp photo" "Linear sRGB" "Linear sRGB" && near plate.exr developed.exr 2e-3; }
+converted() { convert "$scratch/photo.jpg" "$scratch/plate.exr" sRGB "Linear sRGB" "srisp scene linear" && near plate.exr developed.exr 2e-3; }
+looks() { convert "$scratch/developed.exr" "$scratch/look.exr" "Linear sRGB" "Linear sRGB" "srisp photo" && near look.exr back.tif 0.02; }
+check "Blender reads a photo as a developed plate" developed
+check "or converts it to one" converted
+check "Blender gives a plate the photo's look" looks
 check "Blender unprocesses a photo to the library's pixels" unprocessed
 check "Blender processes our EXR to the library's pixels" processed
 

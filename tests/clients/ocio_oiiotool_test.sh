@@ -20,6 +20,32 @@ check "or by its colour space" near p.tif back.tif 2e-4
 with "$here" oiiotool raw.exr --ociodisplay "sRGB display" "$process" -o:datatype=float p.tif
 check "or in a view" near p.tif back.tif 2e-4
 
+# Developed: by srisptool, and by the config's spaces.
+"$tool" raw.exr --srisp-develop ACEScg -o:datatype=float acescg.exr --srisp-process -o:datatype=float home.tif
+"$tool" raw.exr --srisp-develop lin_rec709 -o:datatype=float rec709.exr
+with "$here" oiiotool photo.jpg --colorconvert "srisp photo" ACEScg -o:datatype=float plate.exr
+check "a photo is read as a plate in ACEScg" near plate.exr acescg.exr 1e-3
+with "$here" oiiotool photo.jpg --colorconvert "srisp photo" "Linear sRGB" -o:datatype=float plate.exr
+check "or in linear sRGB" near plate.exr rec709.exr 1e-3
+with "$here" oiiotool photo.jpg --colorconvert sRGB "srisp ACEScg" -o:datatype=float plate.exr
+check "a photo is converted to ACEScg" near plate.exr acescg.exr 1e-3
+with "$here" oiiotool photo.jpg --colorconvert sRGB "srisp scene linear" -o:datatype=float plate.exr
+check "or to scene-linear sRGB primaries" near plate.exr rec709.exr 1e-3
+with "$here" oiiotool acescg.exr --colorconvert ACEScg "srisp photo" -o:datatype=float p.tif
+check "ACEScg gets the photo's look" near p.tif home.tif 2e-3
+with "$here" oiiotool acescg.exr --colorconvert "srisp ACEScg" sRGB -o:datatype=float p.tif
+check "or is converted to the photo" near p.tif home.tif 2e-3
+oiiotool photo.jpg --colorconvert "srisp photo" "Linear sRGB" -o:datatype=float n.exr
+oiiotool photo.jpg --colorconvert sRGB "Linear sRGB" -o:datatype=float linear.exr
+check "with no reference a photo is read as sRGB" near n.exr linear.exr 3e-4 # two matrices of four-digit whites
+whites() {
+    $bake --reference reference.dng --source photo.jpg --quiet --whitebalance reference --exposure 0.5 -o other_white &&
+        "$tool" raw.exr --srisp-develop:whitebalance=reference:exposure=0.5 lin_rec709 -o:datatype=float other.exr &&
+        with "$scratch/other_white" oiiotool photo.jpg --colorconvert "srisp photo" "Linear sRGB" -o:datatype=float o.exr &&
+        near o.exr other.exr 2e-3
+}
+check "white and exposure of a bake" whites
+
 round_trip() {
     with "$here" oiiotool photo.jpg --ociolook "$unprocess" --iscolorspace Linear --ociolook "$process" \
         -o:datatype=float round.tif

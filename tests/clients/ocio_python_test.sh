@@ -8,6 +8,7 @@ cp reference.dng second/
 oiiotool photo.jpg --mulc 0.6,0.8,1 -o dark.jpg
 $bake --reference second/reference.dng --source dark.jpg --quiet
 library dark.jpg second/reference.dng dark_raw.exr dark_back.tif
+"$tool" raw.exr --srisp-develop lin_rec709 -o:datatype=float developed.exr
 cat >context.py <<'END'
 import copy
 import os
@@ -42,6 +43,13 @@ def check_near(a, b):
 first, second = os.path.abspath("reference.dng"), os.path.abspath("second/reference.dng")
 check_near(unprocessed("photo.jpg", first), pixels("raw.exr"))
 check_near(unprocessed("dark.jpg", second), pixels("dark_raw.exr"))
+
+# Developed, into the working space.
+context = copy.deepcopy(config.getCurrentContext())
+context["SRISP_REFERENCE"] = first
+plate = numpy.ascontiguousarray(pixels("photo.jpg"))
+config.getProcessor(context, "srisp photo", ocio.ROLE_SCENE_LINEAR).getDefaultCPUProcessor().applyRGB(plate)
+check_near(plate, pixels("developed.exr"))
 check_near(unprocessed("photo.jpg", first), pixels("raw.exr"))
 
 # A bake that changes while the process runs: OpenColorIO keeps what it has read. Another name counts at once; the same

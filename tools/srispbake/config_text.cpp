@@ -248,7 +248,7 @@ ConfigEntries config_entries(const std::array<double, 9>& to_reference)
                       { from, kEncode, kUnprocess, kDevelop, kToAcescg } }) +
         color_space({ "srisp photo",
                       "srisp_photo",
-                      "A photo as the scene that the reference's camera would have seen: read in "
+                      "A photo as the scene that the reference's camera would have seen; read in "
                       "this space, it is developed into the working space.",
                       "sdr-video",
                       { kUnprocess, kDevelop, from_aces, to },

@@ -49,7 +49,7 @@ Examples:
   srisptool raw.exr --srisp-process -o photo_again.png
   srisptool photo.jpg --srisp-unprocess ref.dng --srisp-mosaic \
             --srisp-noise reference -o photo.dng
-  srisptool photo.jpg --srisp-unprocess ref.dng --srisp-develop ACEScg -o plate.exr
+  srisptool photo.jpg --srisp-unprocess ref.dng --srisp-develop ACEScg -o p.exr
   srisptool photo.jpg --srisp-params ref.dng > look.json
   srisptool photo.jpg --srisp-unprocess:params=look.json - -o raw.exr
   srisptool --frames 1-240 s.#.jpg --srisp-unprocess:hold=1 ref.dng -o raw.#.exr
