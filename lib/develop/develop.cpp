@@ -72,7 +72,7 @@ template<Highlights highlights> void develop_row(const Development& d, const flo
         for (int c = 0; c < 3; ++c)
             v[c] = in[x * in_stride + c] * d.multipliers[c];
         if constexpr (highlights != Highlights::keep) {
-            const float most = alpha ? saturation(alpha[x * in_stride]) : 1;
+            const float most = d.white * (alpha ? saturation(alpha[x * in_stride]) : 1);
             if constexpr (highlights == Highlights::clip)
                 for (float& value : v)
                     value = value > most ? most : value; // NaN stays

@@ -89,6 +89,8 @@ Expected<Development> choose_development(const DevelopSource& source, const Opti
         Development result;
         result.space = space->name;
         result.highlights = options.highlights;
+        if (source.parameters)
+            result.white = std::min(1.0f, 1 / source.parameters->gain);
         const float most = *std::max_element(neutral->begin(), neutral->end());
         for (std::size_t c = 0; c < 3; ++c)
             result.multipliers[c] = most / (*neutral)[c];

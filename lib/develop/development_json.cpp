@@ -36,6 +36,7 @@ std::string to_json(const Development& development)
     const nlohmann::ordered_json object = { { "space", development.space },
                                             { "multipliers", development.multipliers },
                                             { "matrix", development.matrix },
+                                            { "white", development.white },
                                             { "highlights", kHighlightNames[int(development.highlights)] } };
     return object.dump();
 }
@@ -56,6 +57,9 @@ Expected<Development> development_from_json(const std::string& text, const std::
             reader.fail("'space' is '" + shown_text(space) + "', which is not known");
         take_numbers(reader, "multipliers", development.multipliers);
         take_numbers(reader, "matrix", development.matrix);
+        development.white = reader.take_number("white");
+        if (!(development.white > 0))
+            reader.fail("'white' must be above 0");
         const std::string highlights = reader.take_text("highlights");
         const auto name = std::find(std::begin(kHighlightNames), std::end(kHighlightNames), highlights);
         if (name == std::end(kHighlightNames))

@@ -64,8 +64,8 @@ const std::vector<Option>& option_table()
           "brighter by that much; at 0 a white at which the first channel saturates is 1" },
         { "highlights", kProgram | kQuery | files | kDevelop, T::choice, &Recipe::highlights,
           { "clip", "blend", "keep" }, "clip", "HOW",
-          "of clipped highlights: clip makes them white at 1, blend keeps their brightness, keep everything, so that "
-          "they turn magenta" },
+          "of clipped highlights: clip makes them white, blend keeps their brightness, keep everything, so that they "
+          "turn magenta" },
         { "allow_partial", kProgram | kQuery | files, T::flag, &Recipe::allow_partial, {}, "0", "", "" },
         { "isolate", kProgram | kQuery | files, T::flag, &Recipe::isolate, {}, "1", "", "" },
         { "direction", kQuery | files, T::choice, &Recipe::direction, { "reverse", "forward" }, "reverse", "", "" },

@@ -83,7 +83,7 @@ Operators development_operators(const Development& development)
     const auto& [red, green, blue] = development.multipliers;
     Operators operators{ diagonal(red, green, blue) };
     if (development.highlights == Highlights::clip)
-        operators.push_back(Limit{ 1 });
+        operators.push_back(Limit{ development.white });
     operators.push_back(affine(development.matrix));
     return operators;
 }

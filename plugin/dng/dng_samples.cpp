@@ -38,8 +38,7 @@ DngSamples::DngSamples(const OIIO::ImageSpec& spec, const DngSettings& settings)
 Expected<DngSamples> DngSamples::create(const OIIO::ImageSpec& spec, const DngSettings& settings)
 {
     if (!recorded_development(spec).empty())
-        return Error{ "image that is developed into " + shown_text(recorded_space(spec)) +
-                      ": a DNG holds camera RGB" };
+        return Error{ "image that is developed into " + shown_text(recorded_space(spec)) + ": a DNG holds camera RGB" };
     DngSamples samples(spec, settings);
     if (spec.nchannels != 1 && spec.nchannels != 3)
         return Error{ "image of " + std::to_string(spec.nchannels) +

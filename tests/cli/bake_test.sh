@@ -47,7 +47,7 @@ prints_errors() {
     "$bake" --reference "$reference" --source "$photo" >report.txt || return 1
     cat report.txt
     grep -c "^  Error against srisptool's pixels: over a grid of colours largest [0-9.e-]*, mean [0-9.e-]*; over $photo " \
-        report.txt | grep -qx 2 &&
+        report.txt | grep -qx 3 &&
         grep -qF "In the host: SRISP_REFERENCE=$reference" report.txt
 }
 check "a bake prints its errors, and what to set" prints_errors
@@ -65,10 +65,12 @@ small_errors() {
     /usr/bin/python3 - <<'P'
 import json
 report = json.load(open("report.json"))
-assert len(report["files"]) == 2, report
-for file in report["files"]:
-    assert 0 < file["error_over_grid"]["largest"] < 1e-3, file
-    assert 0 < file["error_over_photo"]["largest"] <= 2e-4, file
+files = {file["direction"]: file for file in report["files"]}
+assert list(files) == ["unprocess", "process", "develop"], report
+for kind in ("unprocess", "process"):
+    assert 0 < files[kind]["error_over_grid"]["largest"] < 1e-3, files
+    assert 0 < files[kind]["error_over_photo"]["largest"] <= 2e-4, files
+assert files["develop"]["error_over_grid"]["largest"] <= 1e-6, files
 P
 }
 check "--json has the errors, and they are small" small_errors
@@ -99,10 +101,15 @@ one_file() {
         grep -q 'id="srisp-process"' one.clf && grep -q 'dim="17 17 17 3"' one.clf
 }
 check "one file, of the size and in the direction that are asked for" one_file
+development() {
+    "$bake" --params look.json -o d.clf --direction develop --whitebalance 2,1,1.5 --highlights keep >report.txt 2>notes.txt &&
+        grep -q 'id="srisp-develop"' d.clf && ! grep -q Range d.clf && grep -q "the one of the parameters was taken" notes.txt
+}
+check "a development alone, and the note that it has no camera's matrix" development
 cubes() {
     "$bake" --params look.json -o c --cube --lut-size 21 >report.txt &&
         grep -q "^LUT_3D_SIZE 21$" c.unprocess.cube && [ "$(grep -cE '^[0-9.e-]+ [0-9.e-]+ [0-9.e-]+$' c.process.cube)" -eq 9261 ] &&
-        [ "$(grep -c 'Error against' report.txt)" -eq 4 ] && grep -q "^# Error against" c.unprocess.cube
+        [ "$(grep -c 'Error against' report.txt)" -eq 5 ] && grep -q "^# Error against" c.unprocess.cube
 }
 check ".cube files beside, with their own errors" cubes
 
@@ -130,7 +137,7 @@ for name in names:
     shutil.copy(photo, name + b".jpg")
     run = subprocess.run([bake, "--reference", name + b".dng", "--source", name + b".jpg", "--cube", "--lut-size", "5", "--json"],
                          stdout=subprocess.PIPE, check=True)
-    assert len(json.loads(run.stdout)["files"]) == 4
+    assert len(json.loads(run.stdout)["files"]) == 5
     for end in (b".unprocess", b".process"):
         text = open(name + b".dng" + end + b".clf", "rb").read()
         root = xml.fromstring(text)
@@ -141,6 +148,7 @@ for name in names:
         for each in (b".clf", b".cube"):
             os.remove(name + b".dng" + end + each)
         shutil.rmtree(b"none", ignore_errors=True)
+    os.remove(name + b".dng.develop.clf")
 P
 }
 check "names of any bytes give well-formed files" hostile_names
@@ -170,7 +178,7 @@ CONFIG
     says 1 "out.ocio" "$bake" --fragment config.ocio -o out.ocio || return 1
     [ "$(ls | tr '\n' ' ')" = "config.ocio out.ocio " ] || { ls; return 1; }
     "$bake" --fragment config.ocio -o /dev/fd/1 -q >copy.ocio || return 1
-    grep -q "srisp unprocess" copy.ocio && [ "$(ls luts/deep | wc -l)" -eq 2 ] && [ ! -e /dev/fd/luts ]
+    grep -q "srisp unprocess" copy.ocio && [ "$(ls luts/deep | wc -l)" -eq 3 ] && [ ! -e /dev/fd/luts ]
 }
 fragment_case() { (fragments); }
 check "a fragment that fails leaves no file and no folder" fragment_case

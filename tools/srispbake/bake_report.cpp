@@ -58,7 +58,9 @@ std::string summary_text(const BakeSummary& summary)
     std::string text;
     for (const BakeReport& file : summary.files) {
         char size[32];
-        std::snprintf(size, sizeof size, " (%.1f MB)\n", static_cast<double>(file.bytes) / 1e6);
+        const bool small = file.bytes < 100'000;
+        std::snprintf(size, sizeof size, " (%.1f %s)\n", static_cast<double>(file.bytes) / (small ? 1e3 : 1e6),
+                      small ? "kB" : "MB");
         text += file.name.path + size + "  " + file.sentence + "\n";
     }
     const std::string value = value_of_variable(summary);

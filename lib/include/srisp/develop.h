@@ -23,13 +23,16 @@ struct Development {
                                                               ///< first channel of a neutral saturates
     std::array<float, 9> matrix{ 1, 0, 0, 0, 1, 0, 0, 0, 1 }; ///< row-major: balanced camera RGB → space, with exposure
     Highlights highlights = Highlights::clip;
+    float white = 1; ///< balanced value above which highlights are clipped or blended
 };
 
 /// What a development is made of.
 struct DevelopSource {
     CameraFacts camera;                     ///< color_matrices; as_shot_neutral is what is neutral in the scene
     std::array<float, 3> reference_neutral; ///< camera RGB of what is neutral in the reference; 0: not known
-    const Parameters* parameters = nullptr; ///< where there is no matrix their `color` is taken; may be null
+    /// Of an unprocessed photo; may be null. Their gain says where the photo was white: above that a RAW-like image is
+    /// drawn to the sensor's white, which is no neutral. Their color is taken where there is no matrix.
+    const Parameters* parameters = nullptr;
 };
 
 /// Chooses the development that `options` ask for (develop, white_balance, exposure, highlights). Matrices as in the

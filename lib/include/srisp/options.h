@@ -73,7 +73,7 @@ struct WhiteBalance {
 
 /// What becomes of highlights in a developed image, where white balance lifts channels that are saturated.
 enum class Highlights {
-    clip,  ///< white, at 1 (before exposure): dcraw -H 0
+    clip,  ///< white, where the sensor saturates (1, before exposure) or the photo was white: dcraw -H 0
     blend, ///< as bright as they are balanced, and as colourful as they are clipped: dcraw -H 2
     keep   ///< as they are balanced: mostly magenta; the only exact way back
 };

@@ -49,7 +49,7 @@ TEST_CASE("matrices are those that the standards print")
     check_near(inverse(space("ACES2065-1").from_xyz),
                { 0.9525523959f, 0, 0.0000936786f, 0.3439664498f, 0.7281660966f, -0.0721325464f, 0, 0, 1.0088251844f },
                2e-6);
-    check_near(inverse(space("lin_rec709").from_xyz), kSrgbToXyz, 2e-4); // its white is 0.3127, 0.3290 to four digits
+    check_near(inverse(space("lin_rec709").from_xyz), kSrgbToXyz, 3e-4); // its white is 0.3127, 0.3290 to four digits
     // ITU-R BT.2087 rounds to six.
     check_near(inverse(space("lin_rec2020").from_xyz),
                { 0.636958f, 0.144617f, 0.168881f, 0.262700f, 0.677998f, 0.059302f, 0, 0.028073f, 1.060985f }, 2e-6);

@@ -152,6 +152,23 @@ TEST_CASE("highlights are clipped, blended or kept")
     check_near(with(Highlights::blend, dim), with(Highlights::keep, dim), 0);
 }
 
+TEST_CASE("an unprocessed photo's highlights are clipped where the photo was white")
+{
+    Parameters parameters;
+    parameters.gain = 1.6f;
+    DevelopSource source = some_source();
+    source.parameters = &parameters;
+    Options options = options_for("ACEScg");
+    // Nearly white, drawn towards the sensor's white: tinted.
+    const std::vector<float> drawn{ 0.4f, 0.7f, 0.6f };
+    check_near(developed(chosen(source, options), drawn), { 0.625f, 0.625f, 0.625f }, 1e-5);
+    options.highlights = Highlights::blend;
+    const float mean = (0.8f + 0.7f + 0.6f / 0.7f) / 3;
+    check_near(developed(chosen(source, options), drawn), { mean, mean, mean }, 1e-5);
+    parameters.gain = 0.7f; // white beyond the sensor's range
+    CHECK(chosen(source, options).white == 1);
+}
+
 TEST_CASE("colour that is multiplied with alpha is saturated at alpha")
 {
     const Development development = chosen(some_source(), options_for("ACEScg"));
@@ -170,6 +187,7 @@ TEST_CASE("the way back is exact where nothing was clipped, from its record, too
     REQUIRE_MESSAGE(read, (read ? "" : read.error().message));
     CHECK(read->matrix == development.matrix);
     CHECK(read->multipliers == development.multipliers);
+    CHECK(read->white == development.white);
     const std::vector<float> before{ 0.2f, 0.3f, 0.1f, 0.01f, 0.9f, 0.02f, 0, 0, 0 };
     std::vector<float> pixels = developed(development, before);
     const MutableImageView view{ pixels.data(), 3, 1, 3, 9 };

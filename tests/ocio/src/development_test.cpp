@@ -20,6 +20,7 @@ Development some_development(Highlights highlights)
     development.multipliers = { 2.1f, 1, 1.4f };
     development.matrix = { 0.7f, 0.2f, 0.1f, 0.05f, 1.0f, -0.05f, 0.02f, -0.1f, 1.08f };
     development.highlights = highlights;
+    development.white = 0.8f;
     return development;
 }
 
