@@ -64,6 +64,7 @@ Status apply_settings(Recipe& recipe, const QueryName& parts, const OIIO::ImageS
         return Error{ "'" + parts.file + "': " + applied.error().message };
     if (const Status applied = apply_hints(recipe, config); !applied)
         return Error{ "'" + parts.file + "': " + applied.error().message };
+    take_as_development(recipe);
     return check_complete(recipe, "'" + parts.file + "'");
 }
 

@@ -29,6 +29,8 @@ constexpr Name kNames[] = {
     { "GammaCorrected", Transfer::srgb, 1, nullptr },
     { "g22_rec709", Transfer::srgb, 1, nullptr },
     { "srgb_texture", Transfer::srgb, 1, nullptr },
+    { "srgb_rec709_scene", Transfer::srgb, 1, nullptr },
+    { "srgb_rec709_display", Transfer::srgb, 1, nullptr },
     { "out_srgb", Transfer::srgb, 1, nullptr },
     { "Utility - sRGB - Texture", Transfer::srgb, 1, nullptr },
     { "sRGB - Texture", Transfer::srgb, 1, nullptr },

@@ -51,6 +51,18 @@ void take_gamma_22_as_srgb(ColorEncoding& encoding)
         encoding.transfer = Transfer::srgb;
 }
 
+/// By the name of its colour space, or where that says no primaries, by its interop identifier: OpenImageIO before 3.1
+/// calls every EXR file "Linear".
+std::optional<NamedEncoding> most_exact_name(const OIIO::ImageSpec& spec, const std::string& space)
+{
+    const std::optional<NamedEncoding> named = named_encoding(space);
+    if (named && named->says_primaries)
+        return named;
+    const std::optional<NamedEncoding> identified = named_encoding(spec.get_string_attribute("colorInteropID"));
+    const bool agree = identified && (!named || identified->encoding.transfer == named->encoding.transfer);
+    return agree && !spec.find_attribute("chromaticities") ? identified : named;
+}
+
 } // namespace
 
 ColorReading read_as_srgb()
@@ -68,7 +80,7 @@ ColorReading read_as_linear()
 ColorReading read_as_described(const OIIO::ImageSpec& spec, int channels)
 {
     const std::string space = spec.get_string_attribute("oiio:ColorSpace");
-    const std::optional<NamedEncoding> named = named_encoding(space);
+    const std::optional<NamedEncoding> named = most_exact_name(spec, space);
     const OIIO::ParamValue* icc = spec.find_attribute("ICCProfile");
     const bool is_float = spec.format.is_floating_point();
     std::vector<std::string> notes;

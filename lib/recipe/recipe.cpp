@@ -257,6 +257,13 @@ Status set_option(Options& options, const std::string& key, const std::string& v
     });
 }
 
+void take_as_development(Recipe& recipe)
+{
+    const bool unprocesses = !recipe.references.empty() || recipe.parameters;
+    if (recipe.action == Recipe::Action::apply && !unprocesses && !recipe.develop.empty())
+        recipe.action = Recipe::Action::develop;
+}
+
 Status check_complete(const Recipe& recipe, const std::string& where)
 {
     if (recipe.action == Recipe::Action::save && recipe.file.empty())

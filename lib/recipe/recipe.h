@@ -44,6 +44,9 @@ Expected<Recipe> recipe_from_json(const std::string& text, const std::string& pa
 /// Sets one value from a text, as a query or a configuration hint says it. Paths are relative to the working folder.
 Status set_by_text(Recipe& recipe, const std::string& key, const std::string& value);
 
+/// What names a space and no reference develops an image that is RAW-like already.
+void take_as_development(Recipe& recipe);
+
 /// Whether parameters can be had at all. `where` names the recipe in the message.
 Status check_complete(const Recipe& recipe, const std::string& where);
 

@@ -23,6 +23,27 @@ query() {
         -o:datatype=float query.exr && same one.exr query.exr
 }
 check "by a query, under another name of the space" query
+alone() {
+    OIIO_LIBRARY_PATH=$plugins oiiotool -i:now=1 "raw.exr.srisp?develop=ACEScg" -o:datatype=float alone.exr &&
+        same one.exr alone.exr && "$tool" "$reference" --srisp-develop ACEScg -o:datatype=float camera.exr &&
+        OIIO_LIBRARY_PATH=$plugins OPENIMAGEIO_DEBUG=0 oiiotool -i:now=1 "reference.dng.srisp?develop=ACEScg" \
+            -o:datatype=float alone.exr && same camera.exr alone.exr
+}
+check "by a query without a reference: a RAW-like image, a camera's file" alone
+read_again() { # as a photo that says its space
+    "$tool" "$reference" --srisp-develop ACEScg -o:datatype=float plate.exr &&
+        oiiotool plate.exr --eraseattrib chromaticities -o:datatype=float named.exr &&
+        "$tool" plate.exr --srisp-unprocess "$reference" -o:datatype=float a.exr &&
+        "$tool" named.exr --srisp-unprocess "$reference" -o:datatype=float b.exr && near a.exr b.exr 1e-5 &&
+        oiiotool named.exr --eraseattrib colorInteropID -o:datatype=float plain.exr &&
+        "$tool" plain.exr --srisp-unprocess "$reference" -o:datatype=float c.exr && ! same a.exr c.exr >/dev/null
+}
+check "a plate is read as ACEScg by its chromaticities or its identifier" read_again
+of_codes() {
+    "$tool" raw.exr -o raw16.dng && "$tool" raw16.dng --srisp-develop ACEScg -o:datatype=float codes.exr &&
+        near one.exr codes.exr 2e-3
+}
+check "of our DNG of integers" of_codes
 threads() {
     "$tool" --threads 1 raw.exr --srisp-develop ACEScg -o:datatype=float threads.exr && same one.exr threads.exr
 }

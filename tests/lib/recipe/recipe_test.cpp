@@ -106,6 +106,47 @@ TEST_CASE("jobs have actions, recipes have sources")
     CHECK(has(refused(R"({"format": "srisp-recipe-1", "action": "prnt"})", true), "did you mean 'print'?"));
 }
 
+TEST_CASE("a recipe says what to develop into, and how")
+{
+    const auto with = [](const std::string& entries) {
+        return R"({"format": "srisp-recipe-1", "source": "p.jpg", "reference": "r.dng", )" + entries + "}";
+    };
+    const Recipe recipe =
+        good(with(R"("develop": "lin_ap1_scene", "whitebalance": 5600, "exposure": -0.5, "highlights": "blend")"));
+    CHECK(recipe.develop == "lin_ap1_scene");
+    CHECK(recipe.white_balance.temperature == 5600);
+    CHECK(recipe.exposure == -0.5);
+    CHECK(recipe.highlights == Highlights::blend);
+    CHECK(good(with(R"("whitebalance": "2,1,1.5")")).white_balance.multipliers[2] == 1.5f);
+    CHECK(has(refused(with(R"("develop": "sRGB")")), "'develop': unknown scene-linear colour space 'sRGB'"));
+    CHECK(has(refused(with(R"("develop": 1)")), "'develop': must be a string"));
+    CHECK(has(refused(with(R"("whitebalance": [1, 1, 1])")), "'whitebalance': must be a temperature or a string"));
+    CHECK(has(refused(with(R"("exposure": true)")), "'exposure': must be a number of EV"));
+    CHECK(has(refused(with(R"("exposure": 21)")), "'exposure': exposure '21' is no number of EV"));
+}
+
+TEST_CASE("what is developed is RAW-like, and names a space")
+{
+    Recipe recipe;
+    recipe.source = "raw.exr";
+    recipe.develop = "ACEScg";
+    take_as_development(recipe);
+    CHECK(recipe.action == Recipe::Action::develop);
+    CHECK(check_complete(recipe, "x"));
+    recipe.develop.clear();
+    CHECK(check_complete(recipe, "x").error().message == "x: names no colour space to develop into");
+    recipe.develop = "ACEScg";
+    recipe.mosaic = Mosaic::rggb;
+    CHECK(check_complete(recipe, "x").error().message == "x: a mosaic is not developed");
+    recipe.mosaic.reset();
+    recipe.action = Recipe::Action::apply;
+    recipe.references = { "r.dng" };
+    take_as_development(recipe);
+    CHECK(recipe.action == Recipe::Action::apply);
+    recipe.direction = Direction::forward;
+    CHECK(check_complete(recipe, "x").error().message == "x: RAW-like images are developed, not processed ones");
+}
+
 TEST_CASE("a wrong recipe says what is wrong, and where")
 {
     CHECK(refused("not json") == "recipe '/shots/a.srisp': is not a JSON object");

@@ -221,3 +221,44 @@ TEST_CASE("what is wrong is said, and nothing is thrown")
     CHECK(has(refusal(unprocess(kPhoto, kReference, options)), "did you mean 'spatial'?"));
     CHECK(!set_option(options, "precison", "fast"));
 }
+
+TEST_CASE("one call develops: a photo, its RAW-like image, a camera's file")
+{
+    Options options;
+    options.develop = "lin_rec2020";
+    options.highlights = Highlights::keep;
+    const auto at_once = unprocess(kPhoto, kReference, options);
+    REQUIRE_MESSAGE(at_once, (at_once ? "" : at_once.error().message));
+    CHECK(at_once->spec().get_string_attribute("oiio:ColorSpace") == "lin_rec2020");
+    CHECK(at_once->spec().get_string_attribute("colorInteropID") == "lin_rec2020_scene");
+
+    const ScratchFolder folder;
+    const auto raw = unprocess(kPhoto, kReference);
+    REQUIRE(raw);
+    OIIO::ImageSpec spec = raw->spec();
+    spec.set_format(OIIO::TypeFloat);
+    const auto output = OIIO::ImageOutput::create(folder.path("raw.exr"));
+    REQUIRE((output && output->open(folder.path("raw.exr"), spec) &&
+             output->write_image(OIIO::TypeFloat, raw->pixels().data()) && output->close()));
+    const auto later = develop(folder.path("raw.exr"), options);
+    REQUIRE_MESSAGE(later, (later ? "" : later.error().message));
+    CHECK(later->pixels() == at_once->pixels());
+
+    const auto camera = develop(kReference);
+    REQUIRE_MESSAGE(camera, (camera ? "" : camera.error().message));
+    CHECK(camera->spec().get_string_attribute("oiio:ColorSpace") == "ACEScg");
+    // What is bright and neutral in the file stays so: white balance is as shot.
+    const ImageView view = camera->view();
+    double sum[3] = {};
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x)
+            for (int c = 0; c < 3; ++c)
+                sum[c] += view.pixel(x, y)[c];
+    CHECK(std::abs(sum[0] / sum[1] - 1) < 0.25);
+    CHECK(std::abs(sum[2] / sum[1] - 1) < 0.25);
+
+    CHECK(has(refusal(develop(kPhoto)), "is neither a RAW-like image of srisp's nor a camera's RAW file"));
+    CHECK(has(refusal(develop(folder.path("none.dng"))), "does not exist"));
+    options.develop = "nothing";
+    CHECK(has(refusal(develop(kReference, options)), "unknown scene-linear colour space 'nothing'"));
+}
