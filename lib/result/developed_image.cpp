@@ -9,6 +9,7 @@
 #include "base/scene_linear_space.h"
 #include "base/shown_text.h"
 #include "photo/color_channels.h"
+#include "recipe/option_table.h"
 #include "record/record.h"
 #include "result/kept_results.h"
 
@@ -30,6 +31,8 @@ Expected<std::unique_ptr<DevelopedImage>> DevelopedImage::open(const Recipe& rec
                                                                std::unique_ptr<ComputedImage> image, KeptResults& kept)
 {
     auto developed = std::unique_ptr<DevelopedImage>(new DevelopedImage(recipe, name, std::move(image), kept));
+    if (const Status known = check_space(recipe.develop); !known) // a program's own options were not read by us
+        return developed->error(known.error().message);
     const auto first = developed->header(0, 0);
     if (!first)
         return first.error();
