@@ -45,6 +45,9 @@ srisp_image_tool(srispbake srisp_base srisp_photo srisp_ocio_static)
 target_include_directories(srispbake_parts PRIVATE ${PROJECT_SOURCE_DIR}) # parts of ocio, by their path
 srisp_man_page(srispbake --help)
 
+srisp_image_tool(srispbatch srisp_base srisp_recipe srisp_static)
+srisp_man_page(srispbatch --help)
+
 # Started by the others, so it is no command of users'. Of the libraries that its own link it needs few, and each costs
 # time to load: OpenImageIO alone, whose two hundred it does not call, a third of a second.
 add_executable(srispdecode srispdecode/main.cpp)

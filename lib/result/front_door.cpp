@@ -26,11 +26,11 @@ OIIO::TypeDesc stored_type(const std::string& format)
     return std::count(std::begin(floats), std::end(floats), format) ? OIIO::TypeFloat : OIIO::TypeUInt16;
 }
 
-Status write_image(OIIO::ImageOutput& output, const std::string& path, const OIIO::ImageSpec& image,
+Status write_image(OIIO::ImageOutput& output, const std::string& path, const OIIO::ImageSpec& image, OIIO::TypeDesc type,
                    const float* pixels)
 {
     OIIO::ImageSpec spec = image;
-    spec.set_format(stored_type(output.format_name()));
+    spec.set_format(type == OIIO::TypeUnknown ? stored_type(output.format_name()) : type);
     const int orientation = spec.get_int_attribute("Orientation", 1);
     const bool png = output.format_name() == std::string("png");
     if (png && orientation > 1 && orientation <= 8)
@@ -72,7 +72,7 @@ Expected<Image> result_of(const Recipe& recipe)
 
 } // namespace
 
-Status Image::save(const std::string& path) const
+Status Image::save(const std::string& path, OIIO::TypeDesc type) const
 {
     return guarded("image", path, [&]() -> Status {
         const std::string where = "image '" + path + "' cannot be written";
@@ -82,7 +82,7 @@ Status Image::save(const std::string& path) const
         NamedOutput file(path);
         Status written = file.created();
         if (written)
-            written = write_image(*output, file.name(), m_spec, m_pixels.data());
+            written = write_image(*output, file.name(), m_spec, type, m_pixels.data());
         output.reset();
         if (written)
             written = file.finish();

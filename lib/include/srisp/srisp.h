@@ -45,7 +45,8 @@ public:
     /// Writes a file of the kind that its name ends in, with all metadata that it can hold: OpenEXR in half, TIFF, FITS
     /// and Radiance in float, others in 16 bits, or in 8 where they have no more. It appears under its name only when
     /// it is complete. Errors start with "image 'path' cannot be written: ".
-    Status save(const std::string& path) const;
+    /// `type`: how values are stored instead; a writer takes the nearest that it has.
+    Status save(const std::string& path, OIIO::TypeDesc type = OIIO::TypeUnknown) const;
 
 private:
     OIIO::ImageSpec m_spec;

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <srisp/options.h>
+
+#include "../common/common_options.h"
+
+namespace srisp::tool {
+
+/// Which of several references a photo gets.
+enum class Pairing {
+    random,      ///< by the seed, the photo's name and the copy's number; as often as its weight says
+    round_robin, ///< one after the other, along the sorted list of photos
+    all,         ///< each of them
+    csv          ///< the one that a CSV file names for it
+};
+
+/// What files are written.
+enum class OutputFormat { exr, dng, tif, png, npy };
+enum class OutputDepth { half, float32, uint16 };
+
+/// A part of the photos, of several.
+struct Shard {
+    std::uint64_t index = 0, count = 1;
+};
+
+/// What the command line asks for.
+struct BatchOptions : CommonOptions {
+    std::vector<std::string> photos; ///< files, folders, globs, @lists, "-"
+    std::string match;               ///< glob for the names of files in folders; empty: images by their endings
+    std::string reference, output;
+    Pairing pairing = Pairing::random;
+    bool pairing_given = false;
+    int per_image = 1;
+    std::uint64_t seed = 0;
+    Shard shard;
+    OutputFormat format = OutputFormat::exr;
+    OutputDepth depth = OutputDepth::half;
+    std::vector<std::pair<std::string, std::string>> image_settings; ///< what is done with each, as it was typed
+    bool mosaic = false;
+    Options image;        ///< the same, read
+    double memory_gb = 0; ///< 0: a quarter of the machine's
+    bool overwrite = false, dry_run = false, fail_fast = false, check = false, verify = false;
+};
+
+/// Makes the parser; it fills `options`. What it can't check by itself, check_options does.
+void describe_options(CLI::App& app, BatchOptions& options);
+
+/// Throws Failure where options contradict each other or what is needed is missing.
+void check_options(BatchOptions& options);
+
+/// "exr", …
+const char* format_name(OutputFormat format);
+/// "half", "float", "uint16"
+const char* depth_name(OutputDepth depth);
+
+/// What srispbatch --help prints.
+extern const char kHelp[];
+
+} // namespace srisp::tool
