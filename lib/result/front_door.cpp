@@ -26,8 +26,8 @@ OIIO::TypeDesc stored_type(const std::string& format)
     return std::count(std::begin(floats), std::end(floats), format) ? OIIO::TypeFloat : OIIO::TypeUInt16;
 }
 
-Status write_image(OIIO::ImageOutput& output, const std::string& path, const OIIO::ImageSpec& image, OIIO::TypeDesc type,
-                   const float* pixels)
+Status write_image(OIIO::ImageOutput& output, const std::string& path, const OIIO::ImageSpec& image,
+                   OIIO::TypeDesc type, const float* pixels)
 {
     OIIO::ImageSpec spec = image;
     spec.set_format(type == OIIO::TypeUnknown ? stored_type(output.format_name()) : type);
