@@ -140,6 +140,26 @@ foreign() {
         summary 12 0 0 "$batch" photos --reference refs -o foreign --overwrite && same_results out foreign
 }
 check "what others made stays, but for --overwrite" foreign
+onto_inputs() { # a set of PNGs into its own folder, a reference's folder
+    cp -r photos/street own && hashes own >before.txt
+    exits 1 "$batch" own --reference refs/a.dng -o own --format png --overwrite -q || return 1
+    hashes own >after.txt && cmp before.txt after.txt || return 1
+    cp photos/1.jpg a.jpg && md5sum refs/a.dng >a.md5
+    exits 1 "$batch" a.jpg --reference refs/a.dng -o refs --format dng --overwrite -q && md5sum -c --quiet a.md5 &&
+        grep -q "inputs are never overwritten" refs/manifest/failed.jsonl && rm -r refs/manifest
+}
+check "inputs are never overwritten" onto_inputs
+inside() {
+    cp -r photos nest
+    summary 12 0 0 "$batch" nest --reference refs -o nest/raw && summary 0 12 0 "$batch" nest --reference refs -o nest/raw
+}
+check "results inside the photos' folder are no photos" inside
+depths() {
+    "$batch" photos/1.jpg --reference refs/a.dng -o floats.dngs --format dng --depth half -q &&
+        "$batch" photos/1.jpg --reference refs/a.dng -o units --format png --mosaic --levels unit -q &&
+        oiiotool --stats units/photos/1.png | grep "Stats Min" | grep -q " 0 \| [0-9][0-9]\? \| [0-9][0-9][0-9] "
+}
+check "depths and levels that are asked for" depths
 without_manifest() { cp -r out bare && rm -r bare/manifest && summary 12 0 0 "$batch" photos --reference refs -o bare && same_results out bare; }
 check "results whose record is lost are known by their bytes" without_manifest
 killed() {

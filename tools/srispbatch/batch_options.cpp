@@ -59,9 +59,28 @@ void set(BatchOptions& options, const std::string& key, const std::string& value
         fail_usage(done.error().message);
 }
 
-bool is_default_depth(const BatchOptions& options)
+/// Half floats are as exact as a RAW file's codes; TIFF readers seldom know them.
+OutputDepth usual_depth(OutputFormat format)
 {
-    return options.depth == OutputDepth::half && options.format != OutputFormat::exr;
+    switch (format) {
+    case OutputFormat::tif:
+        return OutputDepth::float32;
+    case OutputFormat::dng:
+    case OutputFormat::png:
+        return OutputDepth::uint16;
+    case OutputFormat::exr:
+    case OutputFormat::npy:
+        break;
+    }
+    return OutputDepth::half;
+}
+
+bool is_typed(const BatchOptions& options, const std::string& key)
+{
+    for (const auto& [typed, value] : options.image_settings)
+        if (typed == key)
+            return true;
+    return false;
 }
 
 } // namespace
@@ -106,7 +125,7 @@ void describe_options(CLI::App& app, BatchOptions& options)
                                                                                  { "tif", OutputFormat::tif },
                                                                                  { "png", OutputFormat::png },
                                                                                  { "npy", OutputFormat::npy } }));
-    app.add_option("--depth", options.depth)
+    app.add_option("--depth", options.given_depth)
         ->transform(CLI::CheckedTransformer(std::map<std::string, OutputDepth>{
             { "half", OutputDepth::half }, { "float", OutputDepth::float32 }, { "uint16", OutputDepth::uint16 } }));
     for (const std::string key : kImageOptions)
@@ -139,9 +158,7 @@ void check_options(BatchOptions& options)
         fail_usage("no output is given: -o FOLDER");
     if (options.shard.count == 1)
         options.shard = shard_of_slurm().value_or(options.shard);
-    // DNG and PNG hold 16 bits, TIFF float, unless they are told what else they can.
-    if (is_default_depth(options) && options.format != OutputFormat::npy)
-        options.depth = options.format == OutputFormat::tif ? OutputDepth::float32 : OutputDepth::uint16;
+    options.depth = options.given_depth.value_or(usual_depth(options.format));
     if (options.format == OutputFormat::exr && options.depth == OutputDepth::uint16)
         fail_usage("--depth uint16: EXR holds half and float");
     if (options.format == OutputFormat::png && options.depth != OutputDepth::uint16)
@@ -150,9 +167,11 @@ void check_options(BatchOptions& options)
         set(options, "mosaic", "reference");
     for (const auto& [key, value] : options.image_settings)
         set(options, key, value);
-    const bool codes = options.depth == OutputDepth::uint16 && options.image.mosaic;
+    const bool codes = options.depth == OutputDepth::uint16 && options.image.mosaic && !is_typed(options, "levels");
     if (codes)
         set(options, "levels", "camera");
+    if (options.format == OutputFormat::tif && options.depth == OutputDepth::half)
+        fail_usage("--depth half: TIFF holds uint16 and float");
     if (options.format == OutputFormat::dng && !options.image.develop.empty())
         fail_usage("--develop: a DNG holds camera RGB");
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,7 +42,8 @@ struct BatchOptions : CommonOptions {
     std::uint64_t seed = 0;
     Shard shard;
     OutputFormat format = OutputFormat::exr;
-    OutputDepth depth = OutputDepth::half;
+    std::optional<OutputDepth> given_depth;
+    OutputDepth depth = OutputDepth::half;                           ///< the given one, or what the format usually has
     std::vector<std::pair<std::string, std::string>> image_settings; ///< what is done with each, as it was typed
     bool mosaic = false;
     Options image;        ///< the same, read

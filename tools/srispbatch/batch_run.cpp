@@ -16,6 +16,7 @@
 #include "../common/interrupt.h"
 #include "../common/own_location.h"
 #include "base/hashes.h"
+#include "base/input_files.h"
 #include "base/progress.h"
 #include "batch_plan.h"
 #include "image_task.h"
@@ -60,7 +61,11 @@ std::uint64_t memory_limit(const BatchOptions& options)
 std::uint64_t memory_for(const std::string& photo)
 {
     constexpr std::uint64_t kBytesPerPixel = 48; // codes, floats of bands, the result, its stored form
-    const auto input = OIIO::ImageInput::open(photo);
+    std::error_code ignored;
+    if (!fs::is_regular_file(photo, ignored))
+        return 0;
+    // A reader of films takes "pipe:0.mp4" for something else than a file.
+    const auto input = OIIO::ImageInput::open(fs::absolute(photo).string());
     if (!input) {
         OIIO::geterror();
         return 0;
@@ -95,7 +100,7 @@ public:
     BatchSummary run()
     {
         const auto start = std::chrono::steady_clock::now();
-        const std::vector<Photo> photos = list_photos(m_options.photos, m_options.match);
+        const std::vector<Photo> photos = list_photos(m_options.photos, m_options.match, m_options.output);
         const ReferenceSet references = ReferenceSet::read(m_options.reference);
         if (references.has_pairs() && m_options.pairing_given && m_options.pairing != Pairing::csv)
             fail_usage("the CSV file pairs photos and references itself; --pairing csv, or none");
@@ -103,6 +108,7 @@ public:
             fail_usage("--pairing csv needs a CSV file with the columns photo,reference");
         for (BatchTask& task : plan_batch(photos, references, m_options)) {
             ++m_summary.planned;
+            m_inputs.add("reference", task.reference);
             if (is_done(task))
                 ++m_summary.done_before;
             else
@@ -179,7 +185,7 @@ private:
         Expected<ordered_json> line = Error{ "" };
         try {
             const MemoryGate::Pass pass(m_gate, memory_for(task.photo.path));
-            line = run_task(task, m_options, m_settings, known(task) != nullptr);
+            line = run_task(task, m_options, m_settings, known(task) != nullptr, m_inputs);
             if (line)
                 m_manifest.append(*line);
         } catch (const Failure& failure) {
@@ -223,6 +229,7 @@ private:
     const std::string m_settings;
     Manifest m_manifest;
     MemoryGate m_gate;
+    InputFiles m_inputs; ///< that no result may be written onto
     std::vector<BatchTask> m_tasks;
     std::mutex m_mutex; ///< of what follows
     std::size_t m_next = 0;

@@ -66,15 +66,20 @@ Status place(const std::string& made, const std::string& hash, const std::string
 } // namespace
 
 Expected<ordered_json> run_task(const BatchTask& task, const BatchOptions& options, const std::string& settings,
-                                bool known)
+                                bool known, const InputFiles& inputs)
 {
+    const fs::path path = fs::path(options.output) / task.output;
+    InputFiles photo;
+    photo.add("photo", task.photo.path);
+    for (const InputFiles* each : { &inputs, static_cast<const InputFiles*>(&photo) })
+        if (const Status free = each->check_output(path.string()); !free)
+            return free.error();
     const auto start = std::chrono::steady_clock::now();
     Options image_options = options.image;
     image_options.seed = image_options.noise_seed = task.seed;
     const auto image = unprocess(task.photo.path, task.reference, image_options);
     if (!image)
         return image.error();
-    const fs::path path = fs::path(options.output) / task.output;
     std::error_code error;
     fs::create_directories(path.parent_path(), error);
     if (error)

@@ -40,7 +40,7 @@ bool is_wanted(const fs::path& path, const std::string& match)
 
 class PhotoList {
 public:
-    explicit PhotoList(const std::string& match) : m_match(match) {}
+    PhotoList(const std::string& match, const std::string& output) : m_match(match), m_output(output) {}
 
     void add_word(const std::string& word)
     {
@@ -78,6 +78,8 @@ private:
         for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
             check_interrupt();
             std::error_code ignored;
+            if (!m_output.empty() && at->is_directory(ignored) && fs::equivalent(at->path(), m_output, ignored))
+                at.disable_recursion_pending();
             if (is_wanted(at->path(), m_match) && at->is_regular_file(ignored))
                 m_photos.push_back({ at->path().string(), at->path().lexically_relative(folder).string() });
         }
@@ -134,15 +136,16 @@ private:
             fail("list '" + where + "' names no photos");
     }
 
-    std::string m_match;
+    std::string m_match, m_output;
     std::vector<Photo> m_photos;
 };
 
 } // namespace
 
-std::vector<Photo> list_photos(const std::vector<std::string>& words, const std::string& match)
+std::vector<Photo> list_photos(const std::vector<std::string>& words, const std::string& match,
+                               const std::string& output)
 {
-    PhotoList list(match);
+    PhotoList list(match, output);
     for (const std::string& word : words)
         list.add_word(word);
     return list.take();

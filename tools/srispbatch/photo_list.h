@@ -14,9 +14,11 @@ struct Photo {
 };
 
 /// What the words of a command line name: files; folders, with all folders in them (images by their endings, or what
-/// `match` fits); globs; "@file", a list with a name on each line; "-", such a list on stdin. Sorted by name. Names in
+/// `match` fits); globs; "@file", a list with a name on each line; "-", such a list on stdin. What lies in
+/// the folder `output` is left out of folders. Sorted by name. Names in
 /// a list are relative to the working folder; those that are relative keep their folders. Throws Failure: nothing is
 /// found; a list that cannot be read; two files of one name.
-std::vector<Photo> list_photos(const std::vector<std::string>& words, const std::string& match);
+std::vector<Photo> list_photos(const std::vector<std::string>& words, const std::string& match,
+                               const std::string& output = "");
 
 } // namespace srisp::tool
