@@ -69,6 +69,15 @@ Expected<Matrix3> to_xyz(const DevelopSource& source, const Vector3& neutral, co
     return product(from_srgb, row_normalized(source.parameters->color));
 }
 
+/// The largest balanced value of what was white in an unprocessed photo; 1 where the sensor saturates before.
+float white_of_photo(const Parameters& parameters, const Vector3& multipliers)
+{
+    float most = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+        most = std::max(most, multipliers[c] / (parameters.white_balance[c] * parameters.gain));
+    return std::min(most, 1.0f);
+}
+
 } // namespace
 
 Expected<Development> choose_development(const DevelopSource& source, const Options& options,
@@ -89,11 +98,11 @@ Expected<Development> choose_development(const DevelopSource& source, const Opti
         Development result;
         result.space = space->name;
         result.highlights = options.highlights;
-        if (source.parameters)
-            result.white = std::min(1.0f, 1 / source.parameters->gain);
         const float most = *std::max_element(neutral->begin(), neutral->end());
         for (std::size_t c = 0; c < 3; ++c)
             result.multipliers[c] = most / (*neutral)[c];
+        if (source.parameters)
+            result.white = white_of_photo(*source.parameters, result.multipliers);
         result.matrix = product(space->from_xyz, *xyz);
         for (float& element : result.matrix)
             element *= float(std::exp2(options.exposure));

@@ -156,6 +156,7 @@ TEST_CASE("an unprocessed photo's highlights are clipped where the photo was whi
 {
     Parameters parameters;
     parameters.gain = 1.6f;
+    parameters.white_balance = { 1 / kNeutral[0], 1 / kNeutral[1], 1 / kNeutral[2] };
     DevelopSource source = some_source();
     source.parameters = &parameters;
     Options options = options_for("ACEScg");
@@ -165,6 +166,15 @@ TEST_CASE("an unprocessed photo's highlights are clipped where the photo was whi
     options.highlights = Highlights::blend;
     const float mean = (0.8f + 0.7f + 0.6f / 0.7f) / 3;
     check_near(developed(chosen(source, options), drawn), { mean, mean, mean }, 1e-5);
+    // Whatever else is white: no channel of the photo's white is clipped.
+    options.white_balance.kind = WhiteBalance::Kind::reference;
+    CHECK(chosen(source, options).white == 1);
+    parameters.gain = 3.2f;
+    CHECK(chosen(source, options).white == doctest::Approx(0.7 / 0.4 / 3.2).epsilon(1e-5));
+    parameters.white_balance = { 0.5f / kNeutral[0], 0.5f / kNeutral[1],
+                                 0.5f / kNeutral[2] }; // by what numbers it is said
+    parameters.gain = 6.4f;
+    CHECK(chosen(source, options).white == doctest::Approx(0.7 / 0.4 / 3.2).epsilon(1e-5));
     parameters.gain = 0.7f; // white beyond the sensor's range
     CHECK(chosen(source, options).white == 1);
 }
