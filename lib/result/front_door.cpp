@@ -2,8 +2,13 @@
 #include <srisp/srisp.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <system_error>
+
+#include <OpenImageIO/filesystem.h>
 
 #include "base/guarded.h"
 #include "base/named_output.h"
@@ -26,6 +31,16 @@ OIIO::TypeDesc stored_type(const std::string& format)
     return std::count(std::begin(floats), std::end(floats), format) ? OIIO::TypeFloat : OIIO::TypeUInt16;
 }
 
+Status store(const std::string& path, const std::vector<unsigned char>& bytes)
+{
+    std::FILE* const file = std::fopen(path.c_str(), "wb");
+    bool stored = file && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() && std::fflush(file) == 0;
+    const int error = errno;
+    if (file && std::fclose(file) != 0)
+        stored = false;
+    return stored ? Status() : Status(Error{ std::strerror(error) });
+}
+
 Status write_image(OIIO::ImageOutput& output, const std::string& path, const OIIO::ImageSpec& image,
                    OIIO::TypeDesc type, const float* pixels)
 {
@@ -36,13 +51,20 @@ Status write_image(OIIO::ImageOutput& output, const std::string& path, const OII
     if (png && orientation > 1 && orientation <= 8)
         spec.attribute(kPngOrientationKey, std::to_string(orientation) + kPngOrientationRest);
     spec.tile_width = spec.tile_height = 0; // tiles of the photo may have a size that this writer refuses
-    if (output.open(path, spec) && output.write_image(OIIO::TypeFloat, pixels) && output.close()) {
-        if (png)
-            place_png_orientation(path.c_str());
-        return {};
-    }
-    const std::string reason = output.geterror();
-    return Error{ reason.empty() ? "its writer does not say why" : reason };
+    // Into memory where the writer can: OpenEXR's says nothing of a disk that gets full while it closes a file.
+    OIIO::Filesystem::IOVecOutput memory;
+    const bool in_memory = output.supports("ioproxy") && output.set_ioproxy(&memory);
+    const bool written = output.open(path, spec) && output.write_image(OIIO::TypeFloat, pixels) && output.close();
+    const std::string reason = written ? "" : output.geterror();
+    output.set_ioproxy(nullptr);
+    if (!written)
+        return Error{ reason.empty() ? "its writer does not say why" : reason };
+    if (in_memory)
+        if (const Status stored = store(path, memory.buffer()); !stored)
+            return stored;
+    if (png)
+        place_png_orientation(path.c_str());
+    return {};
 }
 
 Expected<Image> result_of(const Recipe& recipe)
