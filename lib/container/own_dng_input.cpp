@@ -16,8 +16,6 @@ namespace srisp {
 
 namespace {
 
-constexpr int kFilters = 4;
-
 /// A TIFF file as if another of its folders were the first.
 class FolderFile final : public OIIO::Filesystem::IOFile {
 public:
@@ -57,7 +55,7 @@ private:
 
 } // namespace
 
-void ask_for_camera_rgb(const OwnDng& dng, OIIO::ImageSpec& hints)
+void ask_for_linear_rgb(const char* demosaic, int level, const FilterFactors& factors, OIIO::ImageSpec& hints)
 {
     auto& all = hints.extra_attribs;
     all.erase(std::remove_if(all.begin(), all.end(),
@@ -67,15 +65,20 @@ void ask_for_camera_rgb(const OwnDng& dng, OIIO::ImageSpec& hints)
     hints.attribute("raw:use_camera_wb", 0);
     hints.attribute("raw:use_camera_matrix", 0);
     hints.attribute("raw:user_flip", 0);
-    // The others of LibRaw weigh differences of colours, which are right in balanced images only; this one, ratios.
-    hints.attribute("raw:Demosaic", "DHT");
-    // LibRaw scales all by one range, that of user_sat, and by a number for each filter over the smallest of these.
+    hints.attribute("raw:Demosaic", demosaic);
+    hints.attribute("raw:user_sat", level);
+    hints.attribute("raw:user_mul", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, int(factors.size())), factors.data());
+}
+
+void ask_for_camera_rgb(const OwnDng& dng, OIIO::ImageSpec& hints)
+{
+    // LibRaw scales all by one range, that of its level.
     const float widest = *std::max_element(dng.ranges.begin(), dng.ranges.end());
-    std::array<float, kFilters> scales{};
-    for (std::size_t i = 0; i < scales.size(); ++i)
-        scales[i] = widest / dng.ranges[i];
-    hints.attribute("raw:user_sat", int(std::lround(widest)));
-    hints.attribute("raw:user_mul", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, kFilters), scales.data());
+    FilterFactors factors{};
+    for (std::size_t i = 0; i < factors.size(); ++i)
+        factors[i] = widest / dng.ranges[i];
+    // The others of LibRaw weigh differences of colours, which are right in balanced images only; this one, ratios.
+    ask_for_linear_rgb("DHT", int(std::lround(widest)), factors, hints);
 }
 
 std::unique_ptr<OIIO::Filesystem::IOProxy> ask_for_main_image(const OwnDng& dng, const std::string& path,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -12,6 +13,13 @@
 // How OpenImageIO's readers make of a DNG that srisp wrote the image that it was made from.
 
 namespace srisp {
+
+/// Of LibRaw's four filters: R, G in the rows of R, B, G in the rows of B.
+using FilterFactors = std::array<float, 4>;
+
+/// Asks the reader of RAW files for linear camera RGB as stored, black subtracted, by this demosaicing, in place of all
+/// that `hints` ask of it: each filter times its factor, which LibRaw divides by the least of them, over `level`.
+void ask_for_linear_rgb(const char* demosaic, int level, const FilterFactors& factors, OIIO::ImageSpec& hints);
 
 /// Asks the reader of RAW files for linear camera RGB in [0,1], black subtracted, not balanced, demosaiced, as stored;
 /// in place of all that `hints` ask of it. For integers.

@@ -6,19 +6,17 @@
 #include <cmath>
 #include <utility>
 
-#include <OpenImageIO/strutil.h>
 #include <srisp/metadata.h>
 #include <srisp/reference.h>
 
 #include "camera/camera_color.h"
 #include "container/file_description.h"
+#include "container/own_dng_input.h"
 #include "record/record.h"
 
 namespace srisp {
 
 namespace {
-
-constexpr int kFilters = 4; // R, G, B, second G
 
 /// By what LibRaw multiplies R, G and B.
 using Scales = std::array<float, 3>;
@@ -41,28 +39,18 @@ Scales balance_of(const CameraFacts& facts)
 /// Asks LibRaw for linear camera RGB, balanced; returns what undoes that.
 Scales ask_for_camera_rgb(const CameraFacts& facts, OIIO::ImageSpec& hints)
 {
-    auto& all = hints.extra_attribs;
-    all.erase(std::remove_if(all.begin(), all.end(),
-                             [](const auto& hint) { return OIIO::Strutil::istarts_with(hint.name(), "raw:"); }),
-              all.end());
-    hints.attribute("raw:ColorSpace", "raw");
-    hints.attribute("raw:use_camera_wb", 0);
-    hints.attribute("raw:use_camera_matrix", 0);
-    hints.attribute("raw:user_flip", 0);
-    hints.attribute("raw:Demosaic", "AHD");
     const Scales balance = balance_of(facts);
-    std::array<float, kFilters> ranges{}, factors{};
-    for (std::size_t i = 0; i < kFilters; ++i)
+    FilterFactors ranges{}, factors{};
+    for (std::size_t i = 0; i < ranges.size(); ++i)
         ranges[i] = facts.white_level - facts.black_level[i];
     const float widest = *std::max_element(ranges.begin(), ranges.end());
-    for (std::size_t i = 0; i < kFilters; ++i)
+    for (std::size_t i = 0; i < factors.size(); ++i)
         factors[i] = balance[i == 3 ? 1 : i] * widest / ranges[i];
     // LibRaw divides the factors by the least of them, and clips at the level that it is told: so much higher, nothing
     // is clipped.
     const auto [least, most] = std::minmax_element(factors.begin(), factors.end());
     const float level = std::round(widest * *most / *least);
-    hints.attribute("raw:user_sat", int(level));
-    hints.attribute("raw:user_mul", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, kFilters), factors.data());
+    ask_for_linear_rgb("AHD", int(level), factors, hints);
     const float scale = level * *least / widest;
     return { scale / balance[0], scale / balance[1], scale / balance[2] };
 }

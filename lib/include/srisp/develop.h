@@ -28,8 +28,8 @@ struct Development {
 
 /// What a development is made of.
 struct DevelopSource {
-    CameraFacts camera;                     ///< color_matrices; as_shot_neutral is what is neutral in the scene
-    std::array<float, 3> reference_neutral; ///< camera RGB of what is neutral in the reference; 0: not known
+    CameraFacts camera;                       ///< color_matrices; as_shot_neutral is what is neutral in the scene
+    std::array<float, 3> reference_neutral{}; ///< camera RGB of what is neutral in the reference; 0: not known
     /// Of an unprocessed photo; may be null. Their gain says where the photo was white: above that a RAW-like image is
     /// drawn to the sensor's white, which is no neutral. Their color is taken where there is no matrix.
     const Parameters* parameters = nullptr;
