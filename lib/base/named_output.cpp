@@ -41,7 +41,7 @@ NamedOutput::NamedOutput(std::string path) : m_path(std::move(path)), m_device(i
         m_created = Error{ "TMPDIR: " + error.message() };
         return;
     }
-    for_each_leftover(target, [](const fs::path& leftover) { std::remove(leftover.c_str()); });
+    remove_leftover_files(target);
     const Expected<Unfinished> made = make_unfinished_file(target);
     if (!made) {
         m_created = made.error();

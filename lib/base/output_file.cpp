@@ -64,7 +64,7 @@ int OutputFile::open()
         fail("cannot be opened");
         return -1;
     }
-    for_each_leftover(m_path, [](const fs::path& leftover) { std::remove(leftover.c_str()); });
+    remove_leftover_files(m_path);
     const Expected<Unfinished> made = make_unfinished_file(m_path);
     if (!made) {
         m_error = "'" + m_path + "' cannot be created: " + made.error().message;

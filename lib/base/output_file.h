@@ -7,26 +7,27 @@
 
 #include <srisp/expected.h>
 
+#include "base/byte_sink.h"
+
 namespace srisp {
 
 /// A file that appears under its name only when it is complete: it is written without a name where the file system has
 /// that, else under a hidden one (unfinished.h), flushed to disk, and takes the place of what had the name, be that a
 /// link. What is not finished is gone. A device or pipe (device_output.h) is written to as it is. Errors, as `'path'
 /// cannot be created: reason`.
-class OutputFile {
+class OutputFile : public ByteSink {
 public:
     explicit OutputFile(std::string path);
-    ~OutputFile();
+    ~OutputFile() override;
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
     /// Appends; after a failure it does nothing, and `finish` says why.
-    void write(const void* data, std::size_t bytes);
-    void write(const std::string& text) { write(text.data(), text.size()); }
+    using ByteSink::write;
+    void write(const void* data, std::size_t bytes) override;
     /// Writes over the first bytes, which were written before.
     void write_start(const void* data, std::size_t bytes);
-    /// Whether all went well so far.
-    bool good() const { return m_error.empty(); }
+    bool good() const override { return m_error.empty(); }
 
     /// Call once, at the end.
     Status finish();

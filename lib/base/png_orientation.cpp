@@ -66,24 +66,23 @@ bool is_orientation_text(const Chunk& chunk)
            std::memcmp(data, kPngOrientationKey, sizeof kPngOrientationKey) == 0 && digit >= '1' && digit <= '8';
 }
 
-void place_in(int file)
+/// `read`, `write`: (data, size, place), false where that is not possible.
+template<class Read, class Write> void place_in(const Read& read, const Write& write)
 {
     Bytes8 head{};
-    if (pread(file, head.data(), head.size(), 0) != ssize_t(head.size()) || head != kSignature)
+    if (!read(head.data(), head.size(), 0) || head != kSignature)
         return;
-    for (off_t at = head.size(); pread(file, head.data(), head.size(), at) == ssize_t(head.size());) {
+    for (std::size_t at = head.size(); read(head.data(), head.size(), at);) {
         if (std::memcmp(head.data() + 4, "IDAT", 4) == 0)
             return; // texts that OpenImageIO writes stand before the pixels
         const std::uint32_t length = big_endian(head.data());
         Chunk chunk{};
-        if (length == kLength && pread(file, chunk.data(), chunk.size(), at) == ssize_t(chunk.size()) &&
-            is_orientation_text(chunk)) {
+        if (length == kLength && read(chunk.data(), chunk.size(), at) && is_orientation_text(chunk)) {
             chunk = exif_chunk(static_cast<unsigned char>(chunk[8 + sizeof kPngOrientationKey] - '0'));
-            // In place, nothing but a broken disk can refuse it.
-            static_cast<void>(pwrite(file, chunk.data(), chunk.size(), at) == ssize_t(chunk.size()));
+            write(chunk.data(), chunk.size(), at);
             return;
         }
-        at += off_t(kFrame) + length;
+        at += std::size_t(kFrame) + length;
     }
 }
 
@@ -94,10 +93,25 @@ void place_png_orientation(const char* path)
     const int saved = errno;
     const int file = open(path, O_RDWR | O_CLOEXEC);
     if (file >= 0) {
-        place_in(file);
+        place_in([&](void* data, std::size_t size,
+                     std::size_t at) { return pread(file, data, size, off_t(at)) == ssize_t(size); },
+                 [&](const void* data, std::size_t size, std::size_t at) {
+                     // In place, nothing but a broken disk can refuse it.
+                     return pwrite(file, data, size, off_t(at)) == ssize_t(size);
+                 });
         close(file);
     }
     errno = saved;
+}
+
+void place_png_orientation(std::vector<unsigned char>& bytes)
+{
+    const auto holds = [&](std::size_t size, std::size_t at) {
+        return at <= bytes.size() && size <= bytes.size() - at;
+    };
+    place_in([&](void* data, std::size_t size,
+                 std::size_t at) { return holds(size, at) && std::memcpy(data, bytes.data() + at, size); },
+             [&](const void* data, std::size_t size, std::size_t at) { std::memcpy(bytes.data() + at, data, size); });
 }
 
 } // namespace srisp

@@ -22,6 +22,13 @@ template<class Pointer> class RecentlyKept {
 public:
     explicit RecentlyKept(std::size_t most) : m_most(most) {}
 
+    /// From now on so many.
+    void set_most(std::size_t most)
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        m_most = most;
+    }
+
     /// Null if there is none, or none yet.
     Pointer find(const std::string& key)
     {

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <mutex>
 #include <random>
+#include <set>
 #include <utility>
 
 #include <fcntl.h>
@@ -122,10 +124,46 @@ int lock_leftover(const fs::path& path, unsigned kind)
     return -1;
 }
 
+static fs::path folder_of(const fs::path& target)
+{
+    return target.has_parent_path() ? target.parent_path() : fs::path(".");
+}
+
+/// What an unfinished file was to become, by its name.
+static std::string target_name(const std::string& name)
+{
+    const std::size_t mark = name.rfind(kMark), rest = mark + std::strlen(kMark) + 2 * kHalf;
+    return mark == std::string::npos || mark < 1 || rest > name.size() ? ""
+                                                                       : name.substr(1, mark - 1) + name.substr(rest);
+}
+
+void remove_leftover_files(const fs::path& target)
+{
+    static std::mutex mutex;
+    static std::set<std::string> seen;
+    const fs::path folder = folder_of(target);
+    std::error_code error;
+    {
+        const std::lock_guard lock(mutex);
+        if (!seen.insert(fs::absolute(folder, error).string()).second)
+            return;
+    }
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        const std::string was_for = target_name(name);
+        if (was_for.empty() || !is_unfinished_name(name, was_for))
+            continue;
+        if (const int descriptor = lock_leftover(entry->path(), S_IFREG); descriptor >= 0) {
+            std::remove(entry->path().c_str());
+            ::close(descriptor);
+        }
+    }
+}
+
 void for_each_leftover(const fs::path& target, const std::function<void(const fs::path&)>& remove)
 {
     std::error_code error;
-    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    const fs::path folder = folder_of(target);
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
         if (!is_unfinished_name(entry->path().filename().string(), target))
             continue;

@@ -35,6 +35,10 @@ Expected<Unfinished> make_unfinished_folder(const std::filesystem::path& target)
 void for_each_leftover(const std::filesystem::path& target,
                        const std::function<void(const std::filesystem::path&)>& remove);
 
+/// Removes all files of this kind in the target's folder, of whatever target, that programs left which live no more.
+/// Only the first time that a process asks for a folder: one with many files is not looked through for each of them.
+void remove_leftover_files(const std::filesystem::path& target);
+
 /// Opens what no other has locked, and locks it; -1: it is locked, a link, another's, or gone. Of `kind` only: S_IFREG
 /// or S_IFDIR.
 int lock_leftover(const std::filesystem::path& path, unsigned kind);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <srisp/dng.h>
+#include "dng/dng_writer.h"
 
 #include <algorithm>
 #include <limits>
@@ -53,7 +53,7 @@ public:
 
     const std::vector<std::string>& notes() const { return m_notes; }
 
-    Status write(OutputFile& file)
+    Status write(ByteSink& file)
     {
         const std::uint64_t exif_at = kFirstAt + m_first.size(), sub_at = exif_at + m_exif.size();
         const std::uint64_t preview_at = sub_at + (m_preview ? m_sub.size() : 0);
@@ -107,24 +107,28 @@ private:
 
 } // namespace
 
+Expected<std::vector<std::string>> write_dng(ByteSink& sink, const DngImage& image, const DngOptions& options)
+{
+    if (Status status = check_dng_image(image, options); !status)
+        return status.error();
+    if (Status status = check_dng_samples(image, options); !status)
+        return status.error();
+    DngFile dng(image, options);
+    if (Status status = dng.write(sink); !status)
+        return status.error();
+    return dng.notes();
+}
+
 Expected<std::vector<std::string>> write_dng(const std::string& path, const DngImage& image, const DngOptions& options)
 {
     using Notes = Expected<std::vector<std::string>>;
     return guarded("DNG", path, [&]() -> Notes {
-        const auto named = [&](const Status& status) {
-            return Error{ "DNG '" + path + "': " + status.error().message };
-        };
-        if (Status status = check_dng_image(image, options); !status)
-            return named(status);
-        if (Status status = check_dng_samples(image, options); !status)
-            return named(status);
-        DngFile dng(image, options);
         OutputFile file(path);
-        if (Status status = dng.write(file); !status)
-            return named(status);
-        if (Status status = file.finish(); !status)
-            return status.error();
-        return dng.notes();
+        Notes notes = write_dng(file, image, options);
+        if (!notes)
+            return Error{ "DNG '" + path + "': " + notes.error().message };
+        const Status finished = file.finish();
+        return finished ? notes : Notes(finished.error());
     });
 }
 

@@ -120,7 +120,7 @@ std::string ImageBlocks::compressed(int left, int top) const
     return deflated(data);
 }
 
-void ImageBlocks::write(OutputFile& file) const
+void ImageBlocks::write(ByteSink& file) const
 {
     for (const std::string& block : m_compressed) {
         file.write(block);

@@ -7,7 +7,7 @@
 
 #include <srisp/dng.h>
 
-#include "base/output_file.h"
+#include "base/byte_sink.h"
 
 namespace srisp {
 
@@ -26,7 +26,7 @@ public:
     /// Bytes of each block with what follows it, so that the next one begins at an even offset.
     static std::uint64_t padded(std::uint32_t size) { return std::uint64_t(size) + size % 2; }
 
-    void write(OutputFile& file) const;
+    void write(ByteSink& file) const;
 
 private:
     void compress();

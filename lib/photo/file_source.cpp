@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstdlib>
 #include <ctime>
 #include <vector>
 
@@ -15,12 +16,15 @@ namespace srisp {
 
 namespace {
 
-/// Writers put the time of writing where an image has none, and bytes would differ between runs.
+/// Writers put the time of writing where an image has none, and bytes would differ between runs. So it has the file's,
+/// or that of $SOURCE_DATE_EPOCH [reproducible-builds.org].
 void add_date(OIIO::ImageSpec& spec, const std::string& path)
 {
     if (spec.find_attribute("DateTime") || !OIIO::Filesystem::exists(path))
         return;
-    const std::time_t time = OIIO::Filesystem::last_write_time(path);
+    const char* const epoch = std::getenv("SOURCE_DATE_EPOCH");
+    const std::time_t time =
+        epoch ? std::time_t(std::strtoll(epoch, nullptr, 10)) : OIIO::Filesystem::last_write_time(path);
     std::tm utc{};
     char text[32];
     if (::gmtime_r(&time, &utc) && std::strftime(text, sizeof text, "%Y:%m:%d %H:%M:%S", &utc))

@@ -9,6 +9,7 @@
 #include "base/scene_linear_space.h"
 #include "base/shown_text.h"
 #include "recipe/brightness.h"
+#include "recipe/photo_size.h"
 #include "recipe/white_balance.h"
 
 namespace srisp {
@@ -67,6 +68,8 @@ const std::vector<Option>& option_table()
           "of clipped highlights: clip makes them white, blend keeps their brightness, keep everything, so that they "
           "turn magenta" },
         { "allow_partial", kProgram | kQuery | files, T::flag, &Recipe::allow_partial, {}, "0", "", "" },
+        { "resize", kProgram | kQuery | kRecipe, T::resize, &Recipe::resize, {}, "", "", "" },
+        { "crop", kProgram | kQuery | kRecipe, T::crop, &Recipe::crop, {}, "", "", "" },
         { "isolate", kProgram | kQuery | files, T::flag, &Recipe::isolate, {}, "1", "", "" },
         { "direction", kQuery | files, T::choice, &Recipe::direction, { "reverse", "forward" }, "reverse", "", "" },
         { "lazy", kQuery, T::flag, &Recipe::lazy, {}, "0", "", "" },
@@ -135,6 +138,9 @@ Expected<nlohmann::json> option_value(const Option& option, const std::string& t
     if (option.type == OptionType::space)
         if (const Status known = check_space(text); !known)
             return known.error();
+    if (option.type == OptionType::resize || option.type == OptionType::crop)
+        if (const Status size = option.type == OptionType::crop ? check_crop(text) : check_resize(text); !size)
+            return size.error();
     if (option.type == OptionType::choice)
         if (const auto index = choice_index(option, text); !index)
             return index.error();

@@ -39,6 +39,8 @@ enum class OptionType {
     number,     ///< whole, of 64 bits
     brightness, ///< a number of EV, or sample
     space,      ///< a scene-linear colour space by one of its names
+    resize,     ///< a size [Options::resize]
+    crop,
     white_balance,
     exposure ///< a number of EV
 };

@@ -13,6 +13,7 @@
 #include "base/shown_text.h"
 #include "recipe/brightness.h"
 #include "recipe/option_table.h"
+#include "recipe/photo_size.h"
 #include "recipe/reference_pattern.h"
 #include "recipe/white_balance.h"
 
@@ -56,6 +57,10 @@ Status take(std::string& target, const Option& option, const json& value, const 
     target = value.get<std::string>();
     if (option.type == OptionType::space)
         return check_space(target);
+    if (option.type == OptionType::resize)
+        return check_resize(target);
+    if (option.type == OptionType::crop)
+        return check_crop(target);
     // A model is a name unless it looks like a path [Model::load].
     const bool is_path = option.type == OptionType::path ||
                          (option.type == OptionType::model &&

@@ -41,30 +41,29 @@ Status store(const std::string& path, const std::vector<unsigned char>& bytes)
     return stored ? Status() : Status(Error{ std::strerror(error) });
 }
 
-Status write_image(OIIO::ImageOutput& output, const std::string& path, const OIIO::ImageSpec& image,
-                   OIIO::TypeDesc type, const float* pixels)
+/// What a writer is told of an image.
+OIIO::ImageSpec file_spec(const OIIO::ImageOutput& output, const OIIO::ImageSpec& image, OIIO::TypeDesc type)
 {
     OIIO::ImageSpec spec = image;
     spec.set_format(type == OIIO::TypeUnknown ? stored_type(output.format_name()) : type);
     const int orientation = spec.get_int_attribute("Orientation", 1);
-    const bool png = output.format_name() == std::string("png");
-    if (png && orientation > 1 && orientation <= 8)
+    if (output.format_name() == std::string("png") && orientation > 1 && orientation <= 8)
         spec.attribute(kPngOrientationKey, std::to_string(orientation) + kPngOrientationRest);
     spec.tile_width = spec.tile_height = 0; // tiles of the photo may have a size that this writer refuses
-    // Into memory where the writer can: OpenEXR's says nothing of a disk that gets full while it closes a file.
-    OIIO::Filesystem::IOVecOutput memory;
-    const bool in_memory = output.supports("ioproxy") && output.set_ioproxy(&memory);
-    const bool written = output.open(path, spec) && output.write_image(OIIO::TypeFloat, pixels) && output.close();
-    const std::string reason = written ? "" : output.geterror();
-    output.set_ioproxy(nullptr);
-    if (!written)
-        return Error{ reason.empty() ? "its writer does not say why" : reason };
-    if (in_memory)
-        if (const Status stored = store(path, memory.buffer()); !stored)
-            return stored;
-    if (png)
-        place_png_orientation(path.c_str());
-    return {};
+    return spec;
+}
+
+Status write_file(OIIO::ImageOutput& output, const std::string& path, const OIIO::ImageSpec& spec, const float* pixels)
+{
+    if (output.open(path, spec) && output.write_image(OIIO::TypeFloat, pixels) && output.close())
+        return {};
+    const std::string reason = output.geterror();
+    return Error{ reason.empty() ? "its writer does not say why" : reason };
+}
+
+Error write_error(const std::string& path, const std::string& reason)
+{
+    return { "image '" + path + "' cannot be written: " + reason };
 }
 
 Expected<Image> result_of(const Recipe& recipe)
@@ -97,18 +96,49 @@ Expected<Image> result_of(const Recipe& recipe)
 Status Image::save(const std::string& path, OIIO::TypeDesc type) const
 {
     return guarded("image", path, [&]() -> Status {
-        const std::string where = "image '" + path + "' cannot be written";
         auto output = OIIO::ImageOutput::create(path);
         if (!output)
-            return Error{ where + ": " + OIIO::geterror() };
+            return write_error(path, OIIO::geterror());
         NamedOutput file(path);
         Status written = file.created();
-        if (written)
-            written = write_image(*output, file.name(), m_spec, type, m_pixels.data());
+        if (written && output->supports("ioproxy")) {
+            // OpenEXR's writer says nothing of a disk that gets full while it closes a file.
+            const auto bytes = encode(path, type);
+            if (!bytes)
+                return bytes.error();
+            written = store(file.name(), *bytes);
+        } else if (written) {
+            written = write_file(*output, file.name(), file_spec(*output, m_spec, type), m_pixels.data());
+        }
         output.reset();
         if (written)
             written = file.finish();
-        return written ? written : Status(Error{ where + ": " + written.error().message });
+        return written ? written : Status(write_error(path, written.error().message));
+    });
+}
+
+Expected<std::vector<unsigned char>> Image::encode(const std::string& name, OIIO::TypeDesc type,
+                                                   const std::string& compression) const
+{
+    return guarded("image", name, [&]() -> Expected<std::vector<unsigned char>> {
+        const auto output = OIIO::ImageOutput::create(name);
+        if (!output)
+            return write_error(name, OIIO::geterror());
+        OIIO::Filesystem::IOVecOutput memory;
+        if (!output->supports("ioproxy") || !output->set_ioproxy(&memory))
+            return write_error(name, std::string("OpenImageIO's writer of ") + output->format_name() +
+                                         " files writes to disks only");
+        OIIO::ImageSpec spec = file_spec(*output, m_spec, type);
+        if (!compression.empty())
+            spec.attribute("compression", compression);
+        const Status written = write_file(*output, name, spec, m_pixels.data());
+        output->set_ioproxy(nullptr);
+        if (!written)
+            return write_error(name, written.error().message);
+        std::vector<unsigned char> bytes = std::move(memory.buffer());
+        if (output->format_name() == std::string("png"))
+            place_png_orientation(bytes);
+        return bytes;
     });
 }
 

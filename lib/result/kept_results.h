@@ -37,7 +37,7 @@ public:
     RecentlyKept<std::shared_ptr<const Choice>> choices{ 64 };
     RecentlyKept<std::shared_ptr<const NoiseModel>> noises{ 64 };
     /// By the hashes of reference and model; 0.3 MB each.
-    RecentlyKept<std::shared_ptr<const PreparedReference>> references{ 64 };
+    RecentlyKept<std::shared_ptr<const PreparedReference>> references{ 256 };
     /// By recipe and subimage: the first choice of a recipe that says `hold`.
     RecentlyKept<std::shared_ptr<const Choice>> held_choices{ 1 << 20 };
 

@@ -9,6 +9,7 @@
 #include "container/own_dng.h"
 #include "container/reader_name.h"
 #include "result/camera_file.h"
+#include "result/resized_source.h"
 
 namespace srisp {
 
@@ -33,9 +34,11 @@ Expected<std::unique_ptr<PixelSource>> open_recipe_source(const Recipe& recipe, 
 {
     const bool photo = recipe.direction == Direction::reverse && recipe.action != Recipe::Action::develop;
     const OIIO::ImageSpec hints = reading_hints(recipe, config);
-    if (recipe.action == Recipe::Action::develop && is_camera_file(recipe.source))
-        return open_camera_file(recipe.source, hints, recipe.isolate);
-    return open_file_source(recipe.source, photo ? "photo" : "image", hints);
+    const bool camera = recipe.action == Recipe::Action::develop && is_camera_file(recipe.source);
+    auto source = camera ? open_camera_file(recipe.source, hints, recipe.isolate)
+                         : open_file_source(recipe.source, photo ? "photo" : "image", hints);
+    const bool whole = recipe.resize.empty() && recipe.crop.empty();
+    return whole || !source ? std::move(source) : resized_source(std::move(*source), recipe);
 }
 
 } // namespace srisp

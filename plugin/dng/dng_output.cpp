@@ -9,6 +9,7 @@
 #include "base/shown_text.h"
 #include "container/image_limits.h"
 #include "dng/dng_check.h"
+#include "dng/dng_writer.h"
 #include "dng_xmp.h"
 #include "result/kept_results.h"
 
@@ -39,7 +40,8 @@ int DngOutput::supports(OIIO::string_view feature) const
 {
     // Rows in any order. The windows are for oiiotool, which would fill what a format lacks of the display window with
     // black.
-    return feature == "random_access" || feature == "displaywindow" || feature == "negativeorigin";
+    return feature == "random_access" || feature == "displaywindow" || feature == "negativeorigin" ||
+           feature == "ioproxy";
 }
 
 bool DngOutput::fail(const std::string& message)
@@ -121,6 +123,18 @@ bool DngOutput::close()
     return finished;
 }
 
+Expected<std::vector<std::string>> DngOutput::write_to_proxy(const DngImage& image)
+{
+    MemorySink memory;
+    auto notes = write_dng(memory, image, m_settings.options);
+    if (!notes)
+        return Error{ "DNG '" + m_path + "': " + notes.error().message };
+    const std::string& bytes = memory.bytes();
+    if (m_proxy->pwrite(bytes.data(), bytes.size(), 0) != bytes.size())
+        return Error{ "DNG '" + m_path + "': cannot be written to the host's memory" };
+    return notes;
+}
+
 Status DngOutput::finish()
 {
     if (const int missing = m_samples->missing())
@@ -141,7 +155,7 @@ Status DngOutput::finish()
         preview = preview_of(std::move(picture), image.facts);
         image.preview = preview.empty() ? nullptr : preview.data();
     }
-    const auto written = write_dng(m_path, image, m_settings.options);
+    const auto written = m_proxy ? write_to_proxy(image) : write_dng(m_path, image, m_settings.options);
     if (!written)
         return written.error();
     m_is_written = true;

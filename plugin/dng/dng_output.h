@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <srisp/expected.h>
 
@@ -24,6 +25,12 @@ public:
     int supports(OIIO::string_view feature) const override;
     bool open(const std::string& name, const OIIO::ImageSpec& spec, OpenMode mode) override;
     bool close() override;
+    /// A host's own place for the bytes, instead of a file.
+    bool set_ioproxy(OIIO::Filesystem::IOProxy* proxy) override
+    {
+        m_proxy = proxy;
+        return true;
+    }
     bool write_scanline(int y, int z, OIIO::TypeDesc format, const void* data, OIIO::stride_t xstride) override;
 
 private:
@@ -31,8 +38,10 @@ private:
     bool succeeds(const std::function<Status()>& step);
     Status begin(const std::string& name, const OIIO::ImageSpec& spec);
     Status finish();
+    Expected<std::vector<std::string>> write_to_proxy(const DngImage& image);
 
     std::string m_path;
+    OIIO::Filesystem::IOProxy* m_proxy = nullptr; ///< null: the file of that name
     DngSettings m_settings;
     std::optional<DngSamples> m_samples; ///< none: not open, or something failed
     bool m_is_written = false;           ///< as the samples are now

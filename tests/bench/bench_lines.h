@@ -34,4 +34,5 @@ BenchLines bench_libraries(const BenchSettings& settings);
 BenchLines bench_ocio(const BenchSettings& settings);
 BenchLines bench_raw_out(const BenchSettings& settings);
 BenchLines bench_develop(const BenchSettings& settings);
+BenchLines bench_batch(const BenchSettings& settings);
 BenchLines bench_commands(const BenchSettings& settings);

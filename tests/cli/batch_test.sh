@@ -3,29 +3,7 @@
 # srispbatch: the same results by every way, after every interruption, and what is refused.
 . "$(dirname "$0")/setup.sh"
 
-batch=$build/bin/srispbatch
-mkdir -p photos/street refs
-cp "$reference" refs/a.dng
-"$tool" "$photo" --srisp-unprocess "$reference" -o refs/b.dng # a reference of another scene
-for number in 1 2 3 4 5 6; do
-    oiiotool "$photo" --mulc 0.$((10 - number)),0.9,0.8 -o photos/$number.jpg
-    oiiotool "$photo" --mulc 0.7,0.9,0.$((number + 3)) -o photos/street/$number.png
-done
-echo text >photos/notes.txt
-cp photos/1.jpg photos/.hidden.jpg
-
-hashes() { # hashes FOLDER: names and bytes of all results
-    (cd "$1" && find . -type f ! -path './manifest/*' | sort | xargs md5sum)
-}
-same_results() { hashes "$1" >one.txt && hashes "$2" >two.txt && cmp one.txt two.txt; }
-summary() { # summary MADE DONE FAILED COMMAND…
-    wanted=": $1 made, $2 done before, $3 failed"
-    shift 3
-    "$@" >summary.txt 2>batch.log
-    grep -qF "$wanted" summary.txt && return 0
-    cat summary.txt batch.log
-    return 1
-}
+. "$source/tests/cli/batch_setup.sh"
 
 check "a folder of photos" summary 12 0 0 "$batch" photos --reference refs -o out
 named() { [ -s out/1.exr ] && [ -s out/street/6.exr ] && [ "$(find out -name '*.exr' | wc -l)" -eq 12 ]; }
@@ -42,6 +20,8 @@ check "the same command makes nothing again" summary 0 12 0 "$batch" photos --re
 check "and exits well" exits 0 "$batch" photos --reference refs -o out -q
 one_thread() { "$batch" photos --reference refs -o single --threads 1 -q && same_results out single; }
 check "the same bits on one thread" one_thread
+elsewhere() { cp -r photos elsewhere && "$batch" elsewhere --reference refs -o copied -q && same_results out copied; }
+check "the same bits of a copy of the photos" elsewhere
 shards() {
     for shard in 2 0 1; do "$batch" photos --reference refs -o shards --shard $shard/3 -q || return 1; done
     same_results out shards && [ "$(cat shards/manifest/*.jsonl | wc -l)" -eq 12 ]
@@ -162,39 +142,113 @@ depths() {
 check "depths and levels that are asked for" depths
 without_manifest() { cp -r out bare && rm -r bare/manifest && summary 12 0 0 "$batch" photos --reference refs -o bare && same_results out bare; }
 check "results whose record is lost are known by their bytes" without_manifest
-killed() {
-    for round in 1 2 3 4 5 6; do
-        "$batch" photos --reference refs -o killed -q &
-        sleep 0.$((round * 2 % 10 + 1))
-        kill -9 $! 2>/dev/null
-        wait $! 2>/dev/null
-        find killed -name '*.exr' ! -name '.*' 2>/dev/null | while read -r file; do iinfo "$file" >/dev/null || echo broken; done
-    done >broken.txt
-    [ ! -s broken.txt ] && "$batch" photos --reference refs -o killed -q && same_results out killed &&
-        exits 0 "$batch" --verify killed -q
-}
-check "killed at any moment, it goes on to the same bits" killed
-interrupted() {
-    "$batch" photos --reference refs -o stopped --per-image 20 -q &
-    pid=$!
-    sleep 0.7
-    kill -TERM $pid # a shell's background jobs ignore the other one
-    wait $pid
-    [ $? -eq 143 ] || return 1
-    [ -z "$(find stopped -name '.*' -type f)" ] && "$batch" photos --reference refs -o stopped --per-image 20 -q &&
-        [ "$(find stopped -name '*.exr' | wc -l)" -eq 240 ]
-}
-check "a signal lets it finish what is being written" interrupted
-cut_line() {
-    cp -r out cut && truncate -s -40 cut/manifest/all.jsonl
-    summary 1 11 0 "$batch" photos --reference refs -o cut && summary 0 12 0 "$batch" photos --reference refs -o cut
-}
-check "a record that was cut off is no record" cut_line
 
-dry() { "$batch" photos --reference refs -o dry --dry-run | grep -q "12 results, of which 0 are done; nothing was made" && [ ! -e dry ]; }
-check "a dry run makes nothing" dry
-summary_as_json() { "$batch" photos --reference refs -o out --json | /usr/bin/python3 -c "import json, sys; assert json.load(sys.stdin)['done_before'] == 12"; }
-check "the summary as JSON" summary_as_json
+resized() {
+    "$batch" photos --reference refs -o small --resize 48 --crop 32x40 -q &&
+        [ "$(oiiotool --info small/1.exr | sed 's/.*: *\([0-9]* x *[0-9]*\).*/\1/')" = "32 x   40" ] || return 1
+    "$batch" photos/street --reference refs/a.dng -o random --per-image 2 --crop random:40 -q && ! cmp -s random/1_0.exr random/1_1.exr &&
+        says 1 "crop '999': the photo has only" "$batch" photos/street --reference refs -o large --crop 999
+}
+check "photos are resized and cropped first" resized
+like_oiiotool() { # the photo resized by oiiotool, then srisptool: within the rounding of the TIFF in between
+    oiiotool photos/street/2.png --resize 80x53 -d uint16 -o small.tif
+    "$batch" photos/street --match 2.png --reference refs/a.dng -o eighty --resize 80x53 --depth float -q &&
+        "$batch" small.tif --reference refs/a.dng -o eighty_tif --depth float -q &&
+        idiff -fail 3e-4 -warn 1 eighty/2.exr eighty_tif/small.exr
+}
+check "as oiiotool resizes them" like_oiiotool
+annotations() {
+    cp -r photos labelled && echo '{}' >labelled/street/1.json && echo 0 >labelled/1.txt
+    "$batch" labelled --reference refs -o labels --copy '*.json,*.txt' >copied.txt && grep -q "3 other files copied" copied.txt &&
+        cmp labelled/street/1.json labels/street/1.json && cmp labelled/1.txt labels/1.txt || return 1
+    "$batch" labelled --reference refs -o labels --copy '*.json,*.txt' | grep -q "0 made, 12 done before, 0 failed$" || return 1
+    echo 1 >labels/1.txt
+    says 1 "exists and differs" "$batch" labelled --reference refs -o labels --copy '*.txt'
+}
+check "annotations are copied" annotations
+shots() {
+    "$batch" photos --reference refs -o shots --hold --per-image 2 --brightness sample -q && /usr/bin/python3 - <<'P'
+import collections, json, os
+of = collections.defaultdict(set)
+for line in open("shots/manifest/all.jsonl"):
+    line = json.loads(line)
+    of[os.path.dirname(line["photo"]), line["copy"]].add((json.dumps(line["parameters"]), line["reference"]))
+assert sorted(of) == [("", 0), ("", 1), ("street", 0), ("street", 1)], list(of)
+assert all(len(each) == 1 for each in of.values()), "photos of a shot differ"
+assert len(set.union(*of.values())) == 4, "all shots are alike"
+P
+}
+check "folders are shots" shots
+shot_shards() {
+    for shard in 0 1 2; do "$batch" photos --reference refs -o shot_shards --hold --per-image 2 --brightness sample -q --shard $shard/3 || return 1; done
+    same_results shots shot_shards
+}
+check "shots stay whole in shards" shot_shards
+compressed() {
+    "$batch" photos/street --reference refs/a.dng -o piz --compression piz -q && oiiotool --info -v piz/1.exr | grep -q 'compression: "piz"'
+}
+check "another compression" compressed
+
+merged() {
+    cp -r shards merged && "$batch" --merge merged -q && [ "$(ls merged/manifest/*.jsonl)" = merged/manifest/all.jsonl ] &&
+        [ "$(wc -l <merged/manifest/all.jsonl)" -eq 12 ] && "$batch" --verify merged | grep -q "12 results compared, 0 missing" &&
+        summary 0 12 0 "$batch" photos --reference refs -o merged
+}
+check "manifests of shards become one" merged
+incomplete() {
+    "$batch" photos --reference refs -o part -q --shard 0/3 || return 1
+    says 1 "was planned, and is not made" "$batch" --verify part
+}
+check "a set that lacks a shard is not complete" incomplete
+redone() {
+    cp -r shots redo && echo damaged >redo/street/4_1.exr && exits 1 "$batch" --verify redo -q 2>/dev/null || return 1
+    "$batch" --redo redo/street/4_1.exr -q && same_results shots redo || return 1
+    "$batch" --redo redo/manifest/all.jsonl:5 -o again.exr | grep -q "'again.exr' is made again, to the bit" || return 1
+    cmp again.exr "shots/$(sed -n 5p redo/manifest/all.jsonl | sed 's/.*"output":"\([^"]*\).*/\1/')"
+}
+check "one result again, to the bit" redone
+redone_noise() { "$batch" --redo copies/3_1.npy -o again.npy -q && cmp copies/3_1.npy again.npy && "$batch" --redo dngs/2.dng -o again.dng -q && cmp dngs/2.dng again.dng; }
+check "with its noise" redone_noise
+redone_by_srisptool() {
+    /usr/bin/python3 - <<'P'
+import json
+for line in open("out/manifest/all.jsonl"):
+    line = json.loads(line)
+    if line["output"] == "street/3.exr":
+        json.dump(line["parameters"], open("street3.json", "w"))
+P
+    "$tool" photos/street/3.png --srisp-unprocess:params=street3.json refs/a.dng -d half -o tool3.exr && same tool3.exr out/street/3.exr
+}
+check "and by srisptool from the recorded parameters" redone_by_srisptool
+changed_since() {
+    cp -r photos moved && "$batch" moved --reference refs -o moved_out -q && cp moved/2.jpg moved/1.jpg || return 1
+    says 1 "photo 'moved/1.jpg' has changed since" "$batch" --redo moved_out/1.exr || return 1
+    summary 0 12 0 "$batch" moved --reference refs -o moved_out && summary 1 11 0 "$batch" moved --reference refs -o moved_out --check
+}
+check "a photo that has changed is found by --redo and --check" changed_since
+check "a line that is not there" says 1 "is not in the manifest" "$batch" --redo out/manifest/all.jsonl:99
+check "a result that is not there" says 1 "is not in the manifest" "$batch" --redo out/9.exr
+check "a folder without a manifest" says 1 "has no manifest" "$batch" --merge photos
+
+dry() {
+    "$batch" photos --reference refs -o dry --dry-run --photos-per-shard 5 >dry.txt && [ ! -e dry ] || return 1
+    grep -q "12 results, of which 0 are done; nothing was made" dry.txt && grep -q "about .* s and .* [kM]B, by 12 of them" dry.txt &&
+        grep -q "3 shards of about 5 photos: sbatch --array=0-2" dry.txt && nothing_left
+}
+check "a dry run makes nothing, and says how long and how much it would be" dry
+events() {
+    cp -r photos events && echo broken >events/bad.jpg
+    exits 1 "$batch" events --reference refs -o events_out --json >events.txt || return 1
+    /usr/bin/python3 - <<'P'
+import json
+events = [json.loads(line) for line in open("events.txt")]
+kinds = [event["event"] for event in events]
+assert kinds[0] == "started" and kinds[-1] == "finished" and kinds.count("failed") == 1, kinds
+assert events[0]["results"] == 13 and events[-1]["made"] == 12 and events[-1]["failed"] == 1, events
+assert [event for event in events if event["event"] == "failed"][0]["photo"] == "bad.jpg"
+P
+}
+check "events as lines of JSON" events
 check "other settings in the same folder" says 1 "was made with other settings" "$batch" photos --reference refs -o out --brightness 1
 check "no photos" says 2 "no photos are given" "$batch" --reference refs -o no
 check "no reference" says 2 "no reference is given" "$batch" photos -o no
@@ -208,14 +262,4 @@ check "an option's value" says 2 "brightness 'dark'" "$batch" photos --reference
 check "a depth that the format lacks" says 2 "EXR holds half and float" "$batch" photos --reference refs -o no --depth uint16
 check "two photos of one name" says 2 "would both become" sh -c 'cp photos/1.jpg photos/street/1.jpg; "$0" photos/street --reference refs -o no; code=$?; rm photos/street/1.jpg; exit $code' "$batch"
 check "no output of all these" [ ! -e no ]
-if mount -t tmpfs -o size=300k tmpfs "$(mkdir -p full && echo full)" 2>/dev/null; then
-    trap 'cd /; umount "$scratch/full" 2>/dev/null; rm -rf "$scratch"' EXIT
-    full() {
-        says 1 "No space left on device" "$batch" photos --reference refs -o full || return 1
-        [ "$(grep -c . "$scratch/stderr")" -eq 1 ] && mount -o remount,size=40m full &&
-            "$batch" photos --reference refs -o full -q && same_results out full
-    }
-    check "a full disk stops it with one message, and it goes on" full
-    umount full
-fi
 finish

@@ -31,24 +31,45 @@ struct Shard {
     std::uint64_t index = 0, count = 1;
 };
 
+/// What decides the bytes of a result beside its photo, reference and seed.
+struct MakingOptions {
+    OutputFormat format = OutputFormat::exr;
+    std::optional<OutputDepth> given_depth;
+    OutputDepth depth = OutputDepth::half;                           ///< the given one, or what the format usually has
+    std::string compression;                                         ///< as the format's writer calls it; empty: usual
+    std::vector<std::pair<std::string, std::string>> image_settings; ///< what is done with each, as it was typed
+    bool mosaic = false;
+    bool hold = false; ///< photos of a folder are frames of a shot: the first one's parameters are those of all
+    Options image;     ///< `image_settings`, read
+
+    /// Puts together what is typed: usual values, contradictions. Throws Failure.
+    void finish();
+};
+
 /// What the command line asks for.
-struct BatchOptions : CommonOptions {
+struct BatchOptions : CommonOptions, MakingOptions {
+    enum class Job { make, verify, merge, redo };
+
     std::vector<std::string> photos; ///< files, folders, globs, @lists, "-"
     std::string match;               ///< glob for the names of files in folders; empty: images by their endings
+    std::vector<std::string> copy;   ///< globs for the names of other files in folders, which are copied
     std::string reference, output;
     Pairing pairing = Pairing::random;
     bool pairing_given = false;
     int per_image = 1;
     std::uint64_t seed = 0;
     Shard shard;
-    OutputFormat format = OutputFormat::exr;
-    std::optional<OutputDepth> given_depth;
-    OutputDepth depth = OutputDepth::half;                           ///< the given one, or what the format usually has
-    std::vector<std::pair<std::string, std::string>> image_settings; ///< what is done with each, as it was typed
-    bool mosaic = false;
-    Options image;        ///< the same, read
-    double memory_gb = 0; ///< 0: a quarter of the machine's
-    bool overwrite = false, dry_run = false, fail_fast = false, check = false, verify = false;
+    std::int64_t photos_per_shard = 0; ///< 0: not asked for
+    double memory_gb = 0;              ///< 0: a quarter of the machine's
+    double time_limit = 300;           ///< seconds for a photo, isolated
+    int retry = 0;                     ///< times that a photo which failed is tried again
+    bool isolate = true;               ///< photos are decoded by processes of their own
+    bool overwrite = false, dry_run = false, fail_fast = false, check = false;
+    Job job = Job::make;
+    std::string redo; ///< a result's path, or FILE.jsonl:LINE
+
+    bool worker = false;                ///< this process makes images for another one
+    std::vector<std::string> arguments; ///< the command line as it was typed, for such processes
 };
 
 /// Makes the parser; it fills `options`. What it can't check by itself, check_options does.

@@ -2,49 +2,97 @@
 #include "batch_plan.h"
 
 #include <filesystem>
-#include <map>
+#include <unordered_map>
 
 #include "../common/failure.h"
 #include "base/hashes.h"
+#include "shards.h"
 
 namespace srisp::tool {
 
 namespace {
 
-bool is_in_shard(const Photo& photo, const Shard& shard)
+namespace fs = std::filesystem;
+
+/// Photos that belong together: one, or the frames of a shot. Places in the list of photos.
+using Group = std::vector<std::size_t>;
+
+std::vector<Group> groups_of(const std::vector<Photo>& photos, bool hold)
 {
-    return shard.count < 2 || seeded_hash(0, photo.name) % shard.count == shard.index;
+    std::vector<Group> groups;
+    std::unordered_map<std::string, std::size_t> of_folder;
+    for (std::size_t place = 0; place < photos.size(); ++place) {
+        const std::string key = hold ? fs::path(photos[place].name).parent_path().string() : "";
+        const auto [found, is_new] = of_folder.emplace(key, groups.size());
+        if (is_new || !hold)
+            groups.emplace_back();
+        groups[hold ? found->second : groups.size() - 1].push_back(place);
+    }
+    return groups;
 }
 
-std::string output_name(const Photo& photo, int copy, std::size_t copies, const BatchOptions& options)
+std::vector<std::uint64_t> shards_of(const std::vector<Group>& groups, const std::vector<Photo>& photos,
+                                     std::uint64_t count)
 {
-    std::filesystem::path name(photo.name);
+    std::vector<ShardItem> items;
+    for (const Group& group : groups) {
+        items.push_back({ photos[group[0]].name, 0 });
+        for (const std::size_t place : group) {
+            std::error_code error; // one that is missing takes no time
+            const std::uintmax_t bytes = count > 1 ? fs::file_size(photos[place].path, error) : 0;
+            items.back().bytes += error ? 0 : bytes;
+        }
+    }
+    return assign_shards(items, count);
+}
+
+std::string output_name(const Photo& photo, std::size_t copy, std::size_t copies, const BatchOptions& options)
+{
+    fs::path name(photo.name);
     name.replace_extension();
     return name.string() + (copies > 1 ? "_" + std::to_string(copy) : "") + "." + format_name(options.format);
 }
 
+std::uint64_t seed_of(const Photo& photo, std::size_t copy, const BatchOptions& options)
+{
+    return seeded_hash(options.seed, photo.name + "\n" + std::to_string(copy));
+}
+
 } // namespace
 
-std::vector<BatchTask> plan_batch(const std::vector<Photo>& photos, const ReferenceSet& references,
-                                  const BatchOptions& options)
+BatchPlan plan_batch(const std::vector<Photo>& photos, const ReferenceSet& references, const BatchOptions& options)
 {
-    std::vector<BatchTask> tasks;
-    std::map<std::string, std::string> photo_of_output;
-    for (std::size_t place = 0; place < photos.size(); ++place) {
-        const Photo& photo = photos[place];
-        const std::vector<std::string> chosen = references.of(photo, place, options);
-        for (std::size_t copy = 0; copy < chosen.size(); ++copy) {
-            BatchTask task{ photo, int(copy), chosen[copy], 0, output_name(photo, int(copy), chosen.size(), options) };
-            const auto [same, is_new] = photo_of_output.emplace(task.output, photo.name);
-            if (!is_new)
-                fail_usage("photos '" + same->second + "' and '" + photo.name + "' would both become '" + task.output +
-                           "'");
-            task.seed = seeded_hash(options.seed, photo.name + "\n" + std::to_string(copy));
-            if (is_in_shard(photo, options.shard))
-                tasks.push_back(std::move(task));
-        }
+    BatchPlan plan;
+    std::unordered_map<std::string, const std::string*> photo_of_output;
+    const std::vector<Group> groups = groups_of(photos, options.hold);
+    const std::vector<std::uint64_t> shards = shards_of(groups, photos, options.shard.count);
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const std::size_t first = groups[g][0];
+        const std::vector<std::string> chosen = references.of(photos[first], first, options);
+        for (const std::size_t place : groups[g])
+            for (std::size_t copy = 0; copy < chosen.size(); ++copy) {
+                const Photo& photo = photos[place];
+                BatchTask task;
+                task.output = output_name(photo, copy, chosen.size(), options);
+                const auto [same, is_new] = photo_of_output.emplace(task.output, &photo.name);
+                if (!is_new)
+                    fail_usage("photos '" + *same->second + "' and '" + photo.name + "' would both become '" +
+                               task.output + "'");
+                plan.outputs.push_back(task.output);
+                if (shards[g] != options.shard.index)
+                    continue;
+                task.photo = photo;
+                task.copy = int(copy);
+                task.reference = chosen[copy];
+                task.seed = seed_of(photo, copy, options);
+                if (options.hold) {
+                    task.shot = photos[first];
+                    task.shot_seed = seed_of(photos[first], copy, options);
+                }
+                plan.tasks.push_back(std::move(task));
+            }
     }
-    return tasks;
+    return plan;
 }
 
 } // namespace srisp::tool

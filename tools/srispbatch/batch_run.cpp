@@ -1,27 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "batch_run.h"
 
-#include <unistd.h>
-
-#include <atomic>
-#include <cstdio>
+#include <chrono>
+#include <condition_variable>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <thread>
 
 #include <OpenImageIO/imageio.h>
-#include <srisp/model.h>
+#include <srisp/reference.h>
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
 #include "../common/own_location.h"
 #include "base/hashes.h"
 #include "base/input_files.h"
-#include "base/progress.h"
-#include "batch_plan.h"
-#include "image_task.h"
+#include "batch_report.h"
+#include "file_copies.h"
+#include "image_maker.h"
 #include "manifest.h"
-#include "memory_gate.h"
+#include "settings.h"
 
 namespace srisp::tool {
 
@@ -29,48 +28,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-/// A hash of all that decides the bytes of a result but its photo, reference and seed.
-std::string settings_hash(const BatchOptions& options)
-{
-    const auto model = require(Model::load(options.image.model.empty() ? "default" : options.image.model));
-    ordered_json settings = { { "format", format_name(options.format) },
-                              { "depth", depth_name(options.depth) },
-                              { "mosaic", options.mosaic },
-                              { "model", model->hash() },
-                              { "image", options.image_settings } };
-    if (options.image.parameters)
-        settings["parameters"] = to_json(*options.image.parameters, -1);
-    const std::string text = settings.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
-    return hash_of_bytes(text.data(), text.size());
-}
+using Clock = std::chrono::steady_clock;
 
 std::string shard_name(const Shard& shard)
 {
     return shard.count < 2 ? "all" : std::to_string(shard.index) + "-of-" + std::to_string(shard.count);
-}
-
-std::uint64_t memory_limit(const BatchOptions& options)
-{
-    if (options.memory_gb > 0)
-        return std::uint64_t(options.memory_gb * 1e9);
-    return std::uint64_t(::sysconf(_SC_PHYS_PAGES)) * std::uint64_t(::sysconf(_SC_PAGE_SIZE)) / 4;
-}
-
-/// What making an image takes at most, by its header; 0 where that cannot be read: it will fail.
-std::uint64_t memory_for(const std::string& photo)
-{
-    constexpr std::uint64_t kBytesPerPixel = 48; // codes, floats of bands, the result, its stored form
-    std::error_code ignored;
-    if (!fs::is_regular_file(photo, ignored))
-        return 0;
-    // A reader of films takes "pipe:0.mp4" for something else than a file.
-    const auto input = OIIO::ImageInput::open(fs::absolute(photo).string());
-    if (!input) {
-        OIIO::geterror();
-        return 0;
-    }
-    return std::uint64_t(input->spec().image_pixels()) * kBytesPerPixel;
 }
 
 /// Whether an error will be that of every photo that follows.
@@ -82,31 +44,73 @@ bool is_of_the_disk(const std::string& message)
     return false;
 }
 
-/// The part of a message that other photos' share: without the name.
+/// The part of a message that other photos' share: what follows the file's name.
 std::string reason_of(const std::string& message)
 {
-    const std::size_t name = message.find("': ");
-    return name == std::string::npos ? message : message.substr(name + 3, 100);
+    constexpr std::size_t kLongest = 100;
+    const std::size_t name = message.find('\''), end = message.find('\'', name + 1);
+    if (name == std::string::npos || end == std::string::npos)
+        return message.substr(0, kLongest);
+    const std::size_t reason = message.find_first_not_of(": ", end + 1);
+    return message.substr(std::min(reason, message.size()), kLongest);
+}
+
+/// What the set is to have, checked.
+BatchPlan plan_of(const BatchOptions& options, std::int64_t& photo_count)
+{
+    const std::vector<Photo> photos = list_photos(options.photos, options.match, options.output);
+    photo_count = std::int64_t(photos.size());
+    const ReferenceSet references = ReferenceSet::read(options.reference);
+    if (references.has_pairs() && options.pairing_given && options.pairing != Pairing::csv)
+        fail_usage("the CSV file pairs photos and references itself; --pairing csv, or none");
+    if (!references.has_pairs() && options.pairing == Pairing::csv)
+        fail_usage("--pairing csv needs a CSV file with the columns photo,reference");
+    return plan_batch(photos, references, options);
 }
 
 class BatchRun {
 public:
     explicit BatchRun(const BatchOptions& options)
-        : m_options(options), m_settings(settings_hash(options)), m_manifest(options.output, shard_name(options.shard)),
-          m_gate(memory_limit(options))
+        : m_options(options), m_settings(settings_text(options)), m_settings_hash(settings_hash(m_settings)),
+          m_manifest(options.output, shard_name(options.shard)), m_maker(options, m_settings_hash),
+          m_report(options.json, options.quiet)
     {
     }
 
-    BatchSummary run()
+    std::int64_t run()
     {
-        const auto start = std::chrono::steady_clock::now();
-        const std::vector<Photo> photos = list_photos(m_options.photos, m_options.match, m_options.output);
-        const ReferenceSet references = ReferenceSet::read(m_options.reference);
-        if (references.has_pairs() && m_options.pairing_given && m_options.pairing != Pairing::csv)
-            fail_usage("the CSV file pairs photos and references itself; --pairing csv, or none");
-        if (!references.has_pairs() && m_options.pairing == Pairing::csv)
-            fail_usage("--pairing csv needs a CSV file with the columns photo,reference");
-        for (BatchTask& task : plan_batch(photos, references, m_options)) {
+        plan();
+        if (m_options.dry_run) {
+            forecast();
+            return m_summary.failed;
+        }
+        const auto start = Clock::now();
+        m_manifest.begin();
+        m_manifest.write_settings(m_settings_hash, m_settings);
+        if (m_options.shard.index == 0) {
+            m_manifest.write_plan(m_plan.outputs);
+            if (!m_options.copy.empty())
+                m_summary.copied = copy_files(m_options, { m_plan.outputs.begin(), m_plan.outputs.end() });
+        }
+        m_report.started(m_summary);
+        make_all();
+        m_manifest.write_failed(m_failed);
+        m_summary.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        if (!m_failed.empty())
+            m_summary.failed_path = m_manifest.failed_path();
+        if (!m_fatal.empty())
+            fail(m_fatal);
+        check_interrupt();
+        m_report.finished(m_summary);
+        return m_summary.failed;
+    }
+
+private:
+    /// Finds out what is to be done.
+    void plan()
+    {
+        m_plan = plan_of(m_options, m_photo_count);
+        for (BatchTask& task : m_plan.tasks) {
             ++m_summary.planned;
             m_inputs.add("reference", task.reference);
             if (is_done(task))
@@ -114,21 +118,10 @@ public:
             else
                 m_tasks.push_back(std::move(task));
         }
-        m_summary.dry = m_options.dry_run;
-        if (!m_options.dry_run) {
-            make_all();
-            m_manifest.write_failed(m_failed);
-        }
-        m_summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        if (!m_failed.empty())
-            m_summary.failed_path = m_manifest.failed_path();
-        if (!m_fatal.empty())
-            fail(m_fatal);
-        check_interrupt();
-        return m_summary;
     }
 
-private:
+    std::string path_of(const BatchTask& task) const { return (fs::path(m_options.output) / task.output).string(); }
+
     const ManifestEntry* known(const BatchTask& task) const
     {
         const auto found = m_manifest.entries().find(task.output);
@@ -136,41 +129,75 @@ private:
     }
 
     /// A stat, unless hashes are asked for.
-    bool is_done(const BatchTask& task) const
+    bool is_done(const BatchTask& task)
     {
         const ManifestEntry* const entry = m_options.overwrite ? nullptr : known(task);
         if (!entry)
             return false;
-        if (entry->settings != m_settings || entry->reference != task.reference)
-            fail("'" + (fs::path(m_options.output) / task.output).string() +
+        if (entry->settings != m_settings_hash || entry->reference != task.reference)
+            fail("'" + path_of(task) +
                  "' was made with other settings or another reference; --overwrite makes it anew, and another folder "
-                 "keeps "
-                 "both");
+                 "keeps both");
         std::error_code error;
-        const fs::path path = fs::path(m_options.output) / task.output;
-        if (fs::file_size(path, error) != entry->bytes || error)
+        if (fs::file_size(path_of(task), error) != entry->bytes || error)
             return false;
         if (!m_options.check)
             return true;
-        const auto hash = hash_of_file(path.string());
-        return hash && *hash == entry->hash;
+        check_interrupt();
+        const auto hash = hash_of_file(path_of(task)), photo_hash = hash_of_file(task.photo.path);
+        return hash && photo_hash && *hash == entry->hash && *photo_hash == entry->photo_hash &&
+               hash_of_reference(task.reference) == entry->reference_hash;
     }
 
+    std::string hash_of_reference(const std::string& path)
+    {
+        const auto [found, is_new] = m_reference_hashes.emplace(path, "");
+        if (is_new)
+            if (const auto reference = load_reference_cached(path))
+                found->second = (*reference)->hash;
+        return found->second;
+    }
+
+    /// Fills the processor with photos, until all are made, one is enough to stop, or a signal comes.
     void make_all()
     {
-        // Photos at a time fill the processor; each by itself has one thread.
-        OIIO::attribute("threads", 1);
-        const unsigned wanted =
-            m_options.threads > 0 ? unsigned(m_options.threads) : std::thread::hardware_concurrency();
-        ProgressMeter meter({ "srispbatch", "photos", m_summary.planned, m_summary.done_before }, !m_options.quiet);
+        const std::size_t count = std::min<std::size_t>(photos_at_a_time(m_options), m_tasks.size());
         std::vector<std::thread> threads;
-        for (std::size_t i = 0; i < std::min<std::size_t>(std::max(wanted, 1u), m_tasks.size()); ++i)
-            threads.emplace_back([&] {
-                while (const BatchTask* const task = next())
-                    make(*task, meter);
+        m_working = count;
+        for (std::size_t i = 0; i < count; ++i)
+            threads.emplace_back([this] {
+                {
+                    const auto seat = m_maker.seat();
+                    while (const BatchTask* const task = next())
+                        make(*task, *seat);
+                }
+                const std::lock_guard lock(m_mutex);
+                --m_working;
+                m_finished.notify_all();
             });
+        wait();
         for (std::thread& thread : threads)
             thread.join();
+    }
+
+    /// For all threads, or after a signal a second longer at most.
+    void wait()
+    {
+        using namespace std::chrono_literals;
+        std::unique_lock lock(m_mutex);
+        const auto done = [&] { return m_working == 0; };
+        while (!m_finished.wait_for(lock, 50ms, done))
+            if (pending_interrupt())
+                break;
+        if (m_finished.wait_for(lock, 1s, done))
+            return;
+        m_given_up = true;
+        if (!m_maker.give_up()) {
+            // What these threads compute has no file yet.
+            m_manifest.write_failed(m_failed);
+            die_of({ pending_interrupt() });
+        }
+        m_finished.wait(lock, done);
     }
 
     const BatchTask* next()
@@ -180,36 +207,45 @@ private:
         return stops || m_next == m_tasks.size() ? nullptr : &m_tasks[m_next++];
     }
 
-    void make(const BatchTask& task, ProgressMeter& meter)
+    void make(const BatchTask& task, ImageMaker::Seat& seat)
     {
         Expected<ordered_json> line = Error{ "" };
+        std::string fatal;
         try {
-            const MemoryGate::Pass pass(m_gate, memory_for(task.photo.path));
-            line = run_task(task, m_options, m_settings, known(task) != nullptr, m_inputs);
+            for (int tries = 0; tries <= m_options.retry && !line; ++tries) {
+                InputFiles photo;
+                photo.add("photo", task.photo.path);
+                Status free = photo.check_output(path_of(task));
+                if (free)
+                    free = m_inputs.check_output(path_of(task));
+                line = free ? seat.make(task, path_of(task), m_options.overwrite || known(task))
+                            : Expected<ordered_json>(free.error());
+                if (!free || (!line && (is_of_the_disk(line.error().message) || pending_interrupt())))
+                    break;
+            }
             if (line)
                 m_manifest.append(*line);
         } catch (const Failure& failure) {
-            line = Error{ failure.message };
-            const std::lock_guard lock(m_mutex);
-            m_fatal = failure.message;
+            fatal = failure.message;
         } catch (const std::exception& error) {
             line = Error{ task.photo.path + ": " + error.what() };
         }
         const std::lock_guard lock(m_mutex);
-        if (line) {
+        if (fatal.empty() && !line && is_of_the_disk(line.error().message))
+            fatal = line.error().message;
+        if (!fatal.empty()) {
+            if (m_fatal.empty())
+                m_fatal = fatal;
+        } else if (line) {
             ++m_summary.made;
             m_summary.megapixels += (*line)["width"].get<double>() * (*line)["height"].get<double>() / 1e6;
-        } else {
-            const std::string& message = line.error().message;
-            if (is_of_the_disk(message) && m_fatal.empty())
-                m_fatal = message;
-            else if (m_fatal.empty())
-                take_failure(task, message, meter);
+            m_report.made(m_summary);
+        } else if (m_fatal.empty() && !m_given_up) {
+            take_failure(task, line.error().message);
         }
-        meter.show(m_summary.made + m_summary.failed);
     }
 
-    void take_failure(const BatchTask& task, const std::string& message, ProgressMeter& meter)
+    void take_failure(const BatchTask& task, const std::string& message)
     {
         ++m_summary.failed;
         ++m_summary.reasons[reason_of(message)];
@@ -219,89 +255,57 @@ private:
                              { "reference", task.reference },
                              { "copy", task.copy },
                              { "error", message } });
-        if (!m_options.quiet) {
-            meter.wipe();
-            std::fprintf(stderr, "srispbatch: %s\n", message.c_str());
+        m_report.failed(m_summary, m_failed.back());
+    }
+
+    /// How long the rest will take and how large it will be, from some of it.
+    void forecast()
+    {
+        BatchForecast forecast;
+        const SampledCost cost = m_maker.sample(m_tasks);
+        for (const std::string& error : cost.errors)
+            ++m_summary.reasons[reason_of(error)];
+        forecast.summary = m_summary;
+        forecast.photos = m_photo_count;
+        forecast.sampled = cost.made;
+        forecast.seconds = cost.seconds * double(m_tasks.size());
+        forecast.bytes = cost.bytes * double(m_tasks.size());
+        if (m_options.photos_per_shard > 0) {
+            constexpr std::int64_t kMostTasks = 1000; // Slurm's MaxArraySize is 1001 unless a site says otherwise
+            const std::int64_t each =
+                std::max((m_photo_count + kMostTasks - 1) / kMostTasks, m_options.photos_per_shard);
+            forecast.shards = std::max<std::int64_t>((m_photo_count + each - 1) / each, 1);
+            forecast.photos_per_shard = each;
         }
+        m_report.forecast(forecast);
     }
 
     const BatchOptions& m_options;
-    const std::string m_settings;
+    const std::string m_settings, m_settings_hash;
     Manifest m_manifest;
-    MemoryGate m_gate;
+    ImageMaker m_maker;
     InputFiles m_inputs; ///< that no result may be written onto
-    std::vector<BatchTask> m_tasks;
+    BatchPlan m_plan;
+    std::int64_t m_photo_count = 0;
+    std::vector<BatchTask> m_tasks; ///< of the plan those that are not done
+    std::map<std::string, std::string> m_reference_hashes;
+
     std::mutex m_mutex; ///< of what follows
+    std::condition_variable m_finished;
+    std::size_t m_working = 0; ///< threads
     std::size_t m_next = 0;
+    BatchReport m_report;
     BatchSummary m_summary;
     std::vector<ordered_json> m_failed;
-    std::string m_fatal; ///< what ends the run
+    std::string m_fatal;     ///< what ends the run
+    bool m_given_up = false; ///< what was under way when a signal came
 };
 
 } // namespace
 
-BatchSummary run_batch(const BatchOptions& options)
+std::int64_t run_batch(const BatchOptions& options)
 {
-    // The writer of DNG files is a plugin.
-    if (options.format == OutputFormat::dng)
-        OIIO::attribute("plugin_searchpath", plugin_folder().string());
     return BatchRun(options).run();
-}
-
-BatchSummary verify_batch(const std::string& folder)
-{
-    const Manifest manifest(folder, "all");
-    if (manifest.entries().empty())
-        fail("folder '" + folder + "' has no manifest of srispbatch's");
-    BatchSummary summary;
-    ProgressMeter meter({ "srispbatch", "results compared", std::int64_t(manifest.entries().size()) }, true);
-    for (const auto& [name, entry] : manifest.entries()) {
-        check_interrupt();
-        ++summary.planned;
-        const std::string path = (fs::path(folder) / name).string();
-        const auto hash = hash_of_file(path);
-        if (hash && *hash == entry.hash) {
-            ++summary.done_before;
-        } else {
-            ++summary.failed;
-            meter.wipe();
-            std::fprintf(stderr, "srispbatch: '%s' %s\n", path.c_str(),
-                         hash ? "has not the bytes that the manifest names" : "is missing or cannot be read");
-        }
-        meter.show(summary.planned);
-    }
-    return summary;
-}
-
-std::string summary_text(const BatchSummary& summary)
-{
-    std::string text = std::to_string(summary.planned) + " results: " + std::to_string(summary.made) + " made, " +
-                       std::to_string(summary.done_before) + " done before, " + std::to_string(summary.failed) +
-                       " failed";
-    if (summary.dry)
-        text = std::to_string(summary.planned) + " results, of which " + std::to_string(summary.done_before) +
-               " are done; nothing was made";
-    if (summary.made && summary.seconds > 0) {
-        char rate[80];
-        std::snprintf(rate, sizeof rate, "; %.1f a second, %.1f Mpx/s", double(summary.made) / summary.seconds,
-                      summary.megapixels / summary.seconds);
-        text += rate;
-    }
-    text += "\n";
-    for (const auto& [reason, count] : summary.reasons)
-        text += "  " + std::to_string(count) + " × " + reason + "\n";
-    if (!summary.failed_path.empty())
-        text += "  listed in " + summary.failed_path + "; the same command tries them again\n";
-    return text;
-}
-
-std::string summary_json(const BatchSummary& summary)
-{
-    const ordered_json object = { { "results", summary.planned },         { "made", summary.made },
-                                  { "done_before", summary.done_before }, { "failed", summary.failed },
-                                  { "reasons", summary.reasons },         { "failed_list", summary.failed_path },
-                                  { "seconds", summary.seconds },         { "megapixels", summary.megapixels } };
-    return object.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 } // namespace srisp::tool

@@ -29,13 +29,28 @@ bool is_image_name(const fs::path& path)
     return std::find(std::begin(kEndings), std::end(kEndings), ending) != std::end(kEndings);
 }
 
-/// Hidden files are no photos: some are outputs that other programs are writing.
-bool is_wanted(const fs::path& path, const std::string& match)
+bool fits(const fs::path& path, const std::string& glob)
 {
-    const std::string name = path.filename().string();
-    if (name.empty() || name[0] == '.')
-        return false;
-    return match.empty() ? is_image_name(path) : fnmatch(match.c_str(), name.c_str(), 0) == 0;
+    return fnmatch(glob.c_str(), path.filename().c_str(), 0) == 0;
+}
+
+/// Adds the files of a folder and all folders in it that `is_wanted` takes, but for what is in the folder `output`.
+/// Hidden files are not looked at: some are outputs that other programs are writing.
+template<class IsWanted> void add_files(const std::string& folder, const std::string& output, const IsWanted& is_wanted,
+                                        std::vector<Photo>& files)
+{
+    std::error_code error;
+    fs::recursive_directory_iterator at(folder, fs::directory_options::follow_directory_symlink, error);
+    for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
+        check_interrupt();
+        std::error_code ignored;
+        if (!output.empty() && at->is_directory(ignored) && fs::equivalent(at->path(), output, ignored))
+            at.disable_recursion_pending();
+        if (at->path().filename().string()[0] != '.' && is_wanted(at->path()) && at->is_regular_file(ignored))
+            files.push_back({ at->path().string(), at->path().lexically_relative(folder).string() });
+    }
+    if (error)
+        fail("folder '" + folder + "' cannot be listed: " + error.message());
 }
 
 class PhotoList {
@@ -73,18 +88,10 @@ private:
     void add_folder(const std::string& folder)
     {
         const std::size_t before = m_photos.size();
-        std::error_code error;
-        fs::recursive_directory_iterator at(folder, fs::directory_options::follow_directory_symlink, error);
-        for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
-            check_interrupt();
-            std::error_code ignored;
-            if (!m_output.empty() && at->is_directory(ignored) && fs::equivalent(at->path(), m_output, ignored))
-                at.disable_recursion_pending();
-            if (is_wanted(at->path(), m_match) && at->is_regular_file(ignored))
-                m_photos.push_back({ at->path().string(), at->path().lexically_relative(folder).string() });
-        }
-        if (error)
-            fail("folder '" + folder + "' cannot be listed: " + error.message());
+        add_files(
+            folder, m_output,
+            [&](const fs::path& path) { return m_match.empty() ? is_image_name(path) : fits(path, m_match); },
+            m_photos);
         if (m_photos.size() == before)
             fail("folder '" + folder + "' holds no " +
                  (m_match.empty() ? "images" : "file that fits '" + m_match + "'"));
@@ -149,6 +156,29 @@ std::vector<Photo> list_photos(const std::vector<std::string>& words, const std:
     for (const std::string& word : words)
         list.add_word(word);
     return list.take();
+}
+
+std::vector<Photo> list_companions(const std::vector<std::string>& words, const std::vector<std::string>& globs,
+                                   const std::string& output)
+{
+    std::vector<Photo> files;
+    bool folders = false;
+    for (const std::string& word : words) {
+        std::error_code error;
+        if (!fs::is_directory(word, error))
+            continue;
+        folders = true;
+        add_files(
+            word, output,
+            [&](const fs::path& path) {
+                return std::any_of(globs.begin(), globs.end(), [&](const auto& glob) { return fits(path, glob); });
+            },
+            files);
+    }
+    if (!folders)
+        fail_usage("--copy takes files of folders, and the photos are not given by folders");
+    std::sort(files.begin(), files.end());
+    return files;
 }
 
 } // namespace srisp::tool

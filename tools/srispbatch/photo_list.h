@@ -21,4 +21,9 @@ struct Photo {
 std::vector<Photo> list_photos(const std::vector<std::string>& words, const std::string& match,
                                const std::string& output = "");
 
+/// Other files in those folders that are given by their names: those that fit one of the globs. Sorted by name. Throws
+/// Failure: there are no such folders.
+std::vector<Photo> list_companions(const std::vector<std::string>& words, const std::vector<std::string>& globs,
+                                   const std::string& output);
+
 } // namespace srisp::tool

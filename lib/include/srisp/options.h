@@ -92,6 +92,13 @@ struct Options {
                                 ///< brightness
     std::optional<Brightness> brightness; ///< of reverse results only
 
+    /// The size that the photo gets before anything else is done with it: `N` pixels for its shorter side, `WxH`, `Wx0`
+    /// or `0xH` (the other side by its shape), `P%`; upright; empty: its own.
+    std::string resize;
+    /// Of that its middle, of `N` x `N` or `WxH` pixels, or with `random:` before it a part that `seed` and the photo's
+    /// name decide; empty: all.
+    std::string crop;
+
     std::optional<Mosaic> mosaic; ///< `reference`: its phase; where that is not known RGGB, with a note
     Levels levels = Levels::unit; ///< of a mosaic
     /// Where the figures of noise to be added come from: `reference`, `iso=800`, `shot=0.01,read=1e-4` (variance =
@@ -110,7 +117,7 @@ struct Options {
 
 /// Sets one option by its name, as a query, a recipe and srisptool do: model, params (the path of a JSON file), input
 /// (auto, srgb, linear), precision (float32, fast), brightness (EV, sample), seed, gainmap (ignore, apply),
-/// allow_partial (0, 1), isolate (0, 1), mosaic (reference, RGGB, …), levels (unit, camera), noise, profile,
+/// allow_partial (0, 1), isolate (0, 1), resize, crop, mosaic (reference, RGGB, …), levels (unit, camera), noise, profile,
 /// noise_seed, develop, whitebalance (scene, reference, KELVIN, KELVIN,TINT, R,G,B), exposure (EV), highlights (clip,
 /// blend, keep). Errors: unknown keys and values (the near ones listed), a file that cannot be read.
 SRISP_API Status set_option(Options& options, const std::string& key, const std::string& value);

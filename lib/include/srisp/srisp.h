@@ -48,6 +48,11 @@ public:
     /// `type`: how values are stored instead; a writer takes the nearest that it has.
     Status save(const std::string& path, OIIO::TypeDesc type = OIIO::TypeUnknown) const;
 
+    /// The bytes of the file that `save` would write under such a name. `compression`: as the writer calls it; empty:
+    /// its usual one. Errors start with "image 'name' cannot be written: ".
+    Expected<std::vector<unsigned char>> encode(const std::string& name, OIIO::TypeDesc type = OIIO::TypeUnknown,
+                                                const std::string& compression = {}) const;
+
 private:
     OIIO::ImageSpec m_spec;
     std::vector<float> m_pixels;

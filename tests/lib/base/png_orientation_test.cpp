@@ -31,6 +31,9 @@ std::string placed(const std::string& bytes)
     place_png_orientation(path.c_str());
     std::ostringstream result;
     result << std::ifstream(path, std::ios::binary).rdbuf();
+    std::vector<unsigned char> in_memory(bytes.begin(), bytes.end());
+    place_png_orientation(in_memory);
+    CHECK(std::string(in_memory.begin(), in_memory.end()) == result.str());
     return result.str();
 }
 

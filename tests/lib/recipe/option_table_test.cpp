@@ -96,7 +96,7 @@ TEST_CASE("a program's options are set by name")
     CHECK(set_option(options, "hold", "1").error().message ==
           "unknown option 'hold'; known: model, params, input, gainmap, precision, brightness, seed, mosaic, levels, "
           "noise, "
-          "profile, noise_seed, develop, whitebalance, exposure, highlights, allow_partial, isolate");
+          "profile, noise_seed, develop, whitebalance, exposure, highlights, allow_partial, resize, crop, isolate");
     CHECK(set_option(options, "params", "/nowhere/p.json").error().message ==
           "parameters '/nowhere/p.json': No such file or directory");
     CHECK(options.input == InputEncoding::linear);

@@ -45,21 +45,24 @@ TEST_CASE("a photo's references and seeds are its own, whatever the rest of the 
     const ReferenceSet references = ReferenceSet::read(weights_file(folder, "a.dng,1\nb.dng,1\nc.dng,2\n"));
     BatchOptions options;
     options.per_image = 3;
-    const auto all = choices(plan_batch(some_photos(50), references, options));
+    const auto all = choices(plan_batch(some_photos(50), references, options).tasks);
     CHECK(all.size() == 150);
-    for (const auto& [output, choice] : choices(plan_batch(some_photos(7), references, options)))
+    for (const auto& [output, choice] : choices(plan_batch(some_photos(7), references, options).tasks))
         CHECK(all.at(output) == choice);
     std::map<std::string, std::string> sharded;
     options.shard.count = 4;
     for (options.shard.index = 0; options.shard.index < 4; ++options.shard.index) {
-        const auto part = choices(plan_batch(some_photos(50), references, options));
-        CHECK(part.size() > 15);
+        const BatchPlan plan = plan_batch(some_photos(50), references, options);
+        const auto part = choices(plan.tasks);
+        CHECK(plan.outputs.size() == 150);
+        CHECK(part.size() > 30);
+        CHECK(part.size() < 48);
         sharded.insert(part.begin(), part.end());
     }
     CHECK(sharded == all);
     options.shard = {};
     options.seed = 1;
-    CHECK(choices(plan_batch(some_photos(50), references, options)) != all);
+    CHECK(choices(plan_batch(some_photos(50), references, options).tasks) != all);
 }
 
 TEST_CASE("references are taken as often as their weights say")
@@ -67,7 +70,7 @@ TEST_CASE("references are taken as often as their weights say")
     const ScratchFolder folder;
     const ReferenceSet references = ReferenceSet::read(weights_file(folder, "a.dng,1\n\"b,c.dng\",3\n"));
     int heavy = 0;
-    for (const BatchTask& task : plan_batch(some_photos(4000), references, {}))
+    for (const BatchTask& task : plan_batch(some_photos(4000), references, {}).tasks)
         heavy += task.reference == folder.path("b,c.dng");
     CHECK(heavy > 2900);
     CHECK(heavy < 3100);
@@ -79,11 +82,11 @@ TEST_CASE("round-robin takes one after the other, and all takes all")
     const ReferenceSet references = ReferenceSet::read(weights_file(folder, "a.dng,1\nb.dng,1\n"));
     BatchOptions options;
     options.pairing = Pairing::round_robin;
-    const auto turns = plan_batch(some_photos(4), references, options);
+    const auto turns = plan_batch(some_photos(4), references, options).tasks;
     for (std::size_t i = 0; i < turns.size(); ++i)
         CHECK(turns[i].reference == folder.path(i % 2 ? "b.dng" : "a.dng"));
     options.pairing = Pairing::all;
-    const auto all = plan_batch(some_photos(2), references, options);
+    const auto all = plan_batch(some_photos(2), references, options).tasks;
     REQUIRE(all.size() == 4);
     CHECK(all[1].output == "0_1.exr");
     CHECK(all[1].reference == folder.path("b.dng"));
@@ -96,7 +99,7 @@ TEST_CASE("seeds of different copies and photos differ")
     BatchOptions options;
     options.per_image = 2;
     std::set<std::uint64_t> seeds;
-    for (const BatchTask& task : plan_batch(some_photos(100), references, options))
+    for (const BatchTask& task : plan_batch(some_photos(100), references, options).tasks)
         seeds.insert(task.seed);
     CHECK(seeds.size() == 200);
 }
