@@ -45,7 +45,7 @@ srisp_image_tool(srispbake srisp_base srisp_photo srisp_ocio_static)
 target_include_directories(srispbake_parts PRIVATE ${PROJECT_SOURCE_DIR}) # parts of ocio, by their path
 srisp_man_page(srispbake --help)
 
-srisp_image_tool(srispbatch srisp_base srisp_recipe srisp_reference)
+srisp_image_tool(srispbatch srisp_base srisp_recipe srisp_reference srisp_result)
 target_link_libraries(srispbatch_parts PUBLIC srisp_static) # its public headers
 srisp_man_page(srispbatch --help)
 

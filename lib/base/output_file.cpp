@@ -138,11 +138,16 @@ Status OutputFile::finish()
     return m_error.empty() ? Status() : Status(Error{ m_error });
 }
 
-Status write_output_file(const std::string& path, const std::string& bytes)
+Status write_output_file(const std::string& path, const void* data, std::size_t bytes)
 {
     OutputFile file(path);
-    file.write(bytes);
+    file.write(data, bytes);
     return file.finish();
+}
+
+Status write_output_file(const std::string& path, const std::string& bytes)
+{
+    return write_output_file(path, bytes.data(), bytes.size());
 }
 
 } // namespace srisp

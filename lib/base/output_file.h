@@ -44,6 +44,7 @@ private:
 };
 
 /// A whole file at once.
+Status write_output_file(const std::string& path, const void* data, std::size_t bytes);
 Status write_output_file(const std::string& path, const std::string& bytes);
 
 } // namespace srisp

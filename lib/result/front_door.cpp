@@ -8,28 +8,17 @@
 #include <filesystem>
 #include <system_error>
 
-#include <OpenImageIO/filesystem.h>
-
 #include "base/guarded.h"
 #include "base/named_output.h"
-#include "base/png_orientation.h"
 #include "recipe/recipe.h"
 #include "result/computed_image.h"
+#include "result/file_encoder.h"
 #include "result/kept_results.h"
 #include "result/recipe_source.h"
 
 namespace srisp {
 
 namespace {
-
-/// As much of a value as a kind of file can hold; a writer takes the nearest that it has.
-OIIO::TypeDesc stored_type(const std::string& format)
-{
-    if (format == "openexr")
-        return OIIO::TypeHalf;
-    const char* const floats[] = { "tiff", "fits", "hdr" };
-    return std::count(std::begin(floats), std::end(floats), format) ? OIIO::TypeFloat : OIIO::TypeUInt16;
-}
 
 Status store(const std::string& path, const std::vector<unsigned char>& bytes)
 {
@@ -39,18 +28,6 @@ Status store(const std::string& path, const std::vector<unsigned char>& bytes)
     if (file && std::fclose(file) != 0)
         stored = false;
     return stored ? Status() : Status(Error{ std::strerror(error) });
-}
-
-/// What a writer is told of an image.
-OIIO::ImageSpec file_spec(const OIIO::ImageOutput& output, const OIIO::ImageSpec& image, OIIO::TypeDesc type)
-{
-    OIIO::ImageSpec spec = image;
-    spec.set_format(type == OIIO::TypeUnknown ? stored_type(output.format_name()) : type);
-    const int orientation = spec.get_int_attribute("Orientation", 1);
-    if (output.format_name() == std::string("png") && orientation > 1 && orientation <= 8)
-        spec.attribute(kPngOrientationKey, std::to_string(orientation) + kPngOrientationRest);
-    spec.tile_width = spec.tile_height = 0; // tiles of the photo may have a size that this writer refuses
-    return spec;
 }
 
 Status write_file(OIIO::ImageOutput& output, const std::string& path, const OIIO::ImageSpec& spec, const float* pixels)
@@ -66,7 +43,16 @@ Error write_error(const std::string& path, const std::string& reason)
     return { "image '" + path + "' cannot be written: " + reason };
 }
 
-Expected<Image> result_of(const Recipe& recipe)
+/// Rows at a time: of whole blocks of EXR's, some megabytes.
+int band_rows(const OIIO::ImageSpec& spec)
+{
+    constexpr std::size_t kValues = 1 << 20;
+    constexpr int kBlock = 32;
+    const std::size_t row = std::size_t(spec.width) * std::size_t(spec.nchannels);
+    return std::max(int(kValues / row) / kBlock, 1) * kBlock;
+}
+
+Status pass_result(const Recipe& recipe, const ImageSink& sink)
 {
     // Never destroyed: other threads may still read while statics end.
     static KeptResults& kept = *new KeptResults;
@@ -83,12 +69,48 @@ Expected<Image> result_of(const Recipe& recipe)
     if (!found)
         return found.error();
     const OIIO::ImageSpec spec = **found;
-    const std::size_t row = std::size_t(spec.width) * spec.nchannels;
-    std::vector<float> pixels(row * spec.height);
-    const Status read = (*result)->read(0, 0, kAllThreads, 0, spec.width, 0, spec.height, pixels.data(), row);
-    if (!read)
-        return read.error();
-    return Image(spec, std::move(pixels));
+    if (const Status begun = sink.begin(spec); !begun)
+        return begun;
+    const std::size_t row = std::size_t(spec.width) * std::size_t(spec.nchannels);
+    const int step = band_rows(spec);
+    std::vector<float> rows(row * std::size_t(std::min(step, spec.height)));
+    for (int y = 0; y < spec.height; y += step) {
+        const int end = std::min(y + step, spec.height);
+        if (const Status read = (*result)->read(0, 0, kAllThreads, 0, spec.width, y, end, rows.data(), row); !read)
+            return read;
+        if (const Status taken = sink.rows(rows.data(), end - y); !taken)
+            return taken;
+    }
+    return {};
+}
+
+Expected<Image> result_of(const Recipe& recipe)
+{
+    OIIO::ImageSpec spec;
+    std::vector<float> pixels;
+    ImageSink sink;
+    sink.begin = [&](const OIIO::ImageSpec& known) -> Status {
+        spec = known;
+        pixels.reserve(spec.image_pixels() * std::size_t(spec.nchannels));
+        return {};
+    };
+    sink.rows = [&](const float* rows, int count) -> Status {
+        pixels.insert(pixels.end(), rows,
+                      rows + std::size_t(count) * std::size_t(spec.width) * std::size_t(spec.nchannels));
+        return {};
+    };
+    const Status passed = pass_result(recipe, sink);
+    return passed ? Expected<Image>(Image(std::move(spec), std::move(pixels))) : passed.error();
+}
+
+Recipe unprocess_recipe(const std::string& photo_path, const std::string& reference_path, const Options& options)
+{
+    Recipe recipe;
+    static_cast<Options&>(recipe) = options;
+    recipe.source = photo_path;
+    if (!reference_path.empty())
+        recipe.references = { reference_path };
+    return recipe;
 }
 
 } // namespace
@@ -121,37 +143,30 @@ Expected<std::vector<unsigned char>> Image::encode(const std::string& name, OIIO
                                                    const std::string& compression) const
 {
     return guarded("image", name, [&]() -> Expected<std::vector<unsigned char>> {
-        const auto output = OIIO::ImageOutput::create(name);
-        if (!output)
-            return write_error(name, OIIO::geterror());
-        OIIO::Filesystem::IOVecOutput memory;
-        if (!output->supports("ioproxy") || !output->set_ioproxy(&memory))
-            return write_error(name, std::string("OpenImageIO's writer of ") + output->format_name() +
-                                         " files writes to disks only");
-        OIIO::ImageSpec spec = file_spec(*output, m_spec, type);
-        if (!compression.empty())
-            spec.attribute("compression", compression);
-        const Status written = write_file(*output, name, spec, m_pixels.data());
-        output->set_ioproxy(nullptr);
-        if (!written)
-            return write_error(name, written.error().message);
-        std::vector<unsigned char> bytes = std::move(memory.buffer());
-        if (output->format_name() == std::string("png"))
-            place_png_orientation(bytes);
+        auto encoder = FileEncoder::create(name);
+        if (!encoder)
+            return write_error(name, encoder.error().message);
+        Status written = encoder->begin(m_spec, type, compression);
+        if (written)
+            written = encoder->add_rows(m_pixels.data(), m_spec.height);
+        auto bytes = written ? encoder->finish() : Expected<std::vector<unsigned char>>(written.error());
+        if (!bytes)
+            return write_error(name, bytes.error().message);
         return bytes;
     });
 }
 
 Expected<Image> unprocess(const std::string& photo_path, const std::string& reference_path, const Options& options)
 {
-    return guarded("photo", photo_path, [&] {
-        Recipe recipe;
-        static_cast<Options&>(recipe) = options;
-        recipe.source = photo_path;
-        if (!reference_path.empty())
-            recipe.references = { reference_path };
-        return result_of(recipe);
-    });
+    return guarded("photo", photo_path,
+                   [&] { return result_of(unprocess_recipe(photo_path, reference_path, options)); });
+}
+
+Status unprocess(const std::string& photo_path, const std::string& reference_path, const Options& options,
+                 const ImageSink& sink)
+{
+    return guarded("photo", photo_path,
+                   [&] { return pass_result(unprocess_recipe(photo_path, reference_path, options), sink); });
 }
 
 Expected<Image> process(const std::string& raw_path, const Options& options)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Sourced by scripts that need a Slurm cluster: a real slurmctld and two nodes on this machine, without systemd. As root;
 # Debian's slurm-wlm and munge. Everything lies in $cluster, a folder of the script's.
-#   start_cluster, stop_cluster; node_pid NODE
+#   start_cluster, stop_cluster; start_node, lose_node NODE; wait_for SECONDS COMMAND…
 
 cluster=$scratch/cluster
 SLURM_CONF=$cluster/slurm.conf
@@ -20,7 +20,7 @@ SlurmctldPort=$port
 SlurmUser=root
 SlurmdUser=root
 AuthType=auth/munge
-AuthInfo=socket=$cluster/munge/socket
+AuthInfo=socket=$cluster/munge/socket,cred_expire=4
 StateSaveLocation=$cluster/state
 SlurmdSpoolDir=$cluster/spool.%n
 SlurmctldPidFile=$cluster/slurmctld.pid
@@ -35,13 +35,13 @@ SelectType=select/cons_tres
 SelectTypeParameters=CR_CPU
 JobAcctGatherType=jobacct_gather/none
 ReturnToService=2
-SlurmdTimeout=10
+SlurmdTimeout=6
 KillWait=2
 MinJobAge=600
 SchedulerParameters=batch_sched_delay=1,sched_interval=2
 NodeName=n1 NodeHostname=localhost NodeAddr=127.0.0.1 Port=$((port + 1)) CPUs=1 RealMemory=500
 NodeName=n2 NodeHostname=localhost NodeAddr=127.0.0.1 Port=$((port + 2)) CPUs=1 RealMemory=500
-PartitionName=main Nodes=n1,n2 Default=YES MaxTime=60 State=UP
+PartitionName=main Nodes=n1,n2 Default=YES MaxTime=INFINITE State=UP
 END
 }
 
@@ -59,19 +59,34 @@ start_cluster() {
     slurmctld -D >/dev/null 2>&1 &
     start_node n1
     start_node n2
-    waited=0
-    until [ "$(sinfo -h -t idle -o %D 2>/dev/null)" = 2 ]; do
-        sleep 0.5
-        waited=$((waited + 1))
-        [ $waited -lt 60 ] || { tail -n 20 "$cluster"/*.log; return 1; }
-    done
+    wait_for 30 all_idle || { cat "$cluster"/*.log; return 1; }
 }
+all_idle() { [ "$(sinfo -h -t idle -o %D 2>/dev/null)" = 2 ]; }
 
 start_node() { # start_node NODE
     slurmd -D -N "$1" >/dev/null 2>&1 &
 }
 
-node_pid() { cat "$cluster/$1.pid"; }
+lose_node() { # lose_node NODE: as if its power went
+    kill -9 "$(cat "$cluster/$1.pid")"
+    of_node=$(grep -lzF "SLURMD_NODENAME=$1" /proc/[0-9]*/environ 2>/dev/null | cut -d / -f 3)
+    for process in $of_node; do # first what would tell the controller that they ended
+        parent=$(cut -d ' ' -f 4 "/proc/$process/stat" 2>/dev/null)
+        case $(cat "/proc/$parent/comm" 2>/dev/null) in slurmstepd*) kill -9 "$parent" ;; esac
+    done
+    for process in $of_node; do kill -9 "$process" 2>/dev/null; done
+    true
+}
+
+wait_for() { # wait_for SECONDS COMMAND…: until it succeeds
+    left=$(($1 * 2))
+    shift
+    until "$@"; do
+        sleep 0.5
+        left=$((left - 1))
+        [ $left -gt 0 ] || { echo "in vain: $*"; return 1; }
+    done
+}
 
 stop_cluster() {
     scancel -u root 2>/dev/null

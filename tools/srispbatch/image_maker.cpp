@@ -38,6 +38,7 @@ Expected<ordered_json> ImageMaker::Seat::make(const BatchTask& task, const std::
     const AskForMemory ask = [&](std::uint64_t bytes) { pass.emplace(m_maker.m_gate, bytes); };
     if (!m_maker.m_options.isolate)
         return run_task(task, path, m_maker.m_options, m_maker.m_settings, may_replace, ask);
+    static_cast<void>(m_worker.start()); // while the reference is decoded; `run` says why it cannot
     const auto reference = m_maker.m_references.get(task.reference);
     return m_worker.run(task, path, reference ? reference->name() : "", m_maker.m_settings, may_replace, ask);
 }

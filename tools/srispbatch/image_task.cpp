@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image_task.h"
 
+#include <malloc.h>
+
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <optional>
 
 #include <srisp/srisp.h>
 
@@ -14,6 +17,7 @@
 #include "base/output_file.h"
 #include "npy_file.h"
 #include "reference/reference_cache.h"
+#include "result/file_encoder.h"
 #include "shot_parameters.h"
 
 namespace srisp::tool {
@@ -26,7 +30,7 @@ using nlohmann::ordered_json;
 /// What making an image takes at most, by its header; 0 where that cannot be read: it will fail.
 std::uint64_t memory_for(const std::string& photo)
 {
-    constexpr std::uint64_t kBytesPerPixel = 48; // codes, floats of bands, the result, its stored form
+    constexpr std::uint64_t kBytesPerPixel = 24; // codes, the floats of a resized one, the result's bytes
     std::error_code ignored;
     if (!fs::is_regular_file(photo, ignored))
         return 0;
@@ -39,15 +43,63 @@ std::uint64_t memory_for(const std::string& photo)
     return std::uint64_t(input->spec().image_pixels()) * kBytesPerPixel;
 }
 
-Expected<std::string> encoded(const Image& image, const std::string& name, const MakingOptions& options)
+/// A result as the bytes of its file, and what it says of itself.
+struct Encoded {
+    OIIO::ImageSpec spec;
+    std::vector<unsigned char> bytes;
+};
+
+Expected<Encoded> encode_npy(const BatchTask& task, const Options& image, OutputDepth depth)
 {
-    if (options.format == OutputFormat::npy)
-        return npy_bytes(image, options.depth);
+    Encoded made;
+    std::optional<NpyEncoder> encoder;
+    ImageSink sink;
+    sink.begin = [&](const OIIO::ImageSpec& spec) -> Status {
+        made.spec = spec;
+        encoder.emplace(spec, depth);
+        return {};
+    };
+    sink.rows = [&](const float* rows, int count) -> Status {
+        encoder->add_rows(rows, count);
+        return {};
+    };
+    if (const Status done = unprocess(task.photo.path, task.reference, image, sink); !done)
+        return done.error();
+    made.bytes = encoder->take();
+    return made;
+}
+
+Expected<Encoded> encode_image(const BatchTask& task, const Options& image, const std::string& path,
+                               const MakingOptions& options)
+{
     static const OIIO::TypeDesc kStored[] = { OIIO::TypeHalf, OIIO::TypeFloat, OIIO::TypeUInt16 };
-    const auto bytes = image.encode(name, kStored[int(options.depth)], options.compression);
+    const auto error = [&](const Error& reason) {
+        return Error{ "output '" + path + "' cannot be written: " + reason.message };
+    };
+    auto encoder = FileEncoder::create(path);
+    if (!encoder)
+        return error(encoder.error());
+    Encoded made;
+    bool by_writer = false; // an error is the writer's, not the photo's
+    ImageSink sink;
+    sink.begin = [&](const OIIO::ImageSpec& spec) {
+        made.spec = spec;
+        const Status begun = encoder->begin(spec, kStored[int(options.depth)], options.compression);
+        by_writer = !begun;
+        return begun;
+    };
+    sink.rows = [&](const float* rows, int count) {
+        const Status added = encoder->add_rows(rows, count);
+        by_writer = !added;
+        return added;
+    };
+    if (const Status done = unprocess(task.photo.path, task.reference, image, sink); !done)
+        return by_writer ? error(done.error()) : done.error();
+    auto bytes = encoder->finish();
     if (!bytes)
-        return bytes.error();
-    return std::string(bytes->begin(), bytes->end());
+        return error(bytes.error());
+    made.bytes = std::move(*bytes);
+    return made;
 }
 
 /// What the library is asked for.
@@ -69,7 +121,8 @@ Expected<Options> options_for(const BatchTask& task, const MakingOptions& option
 }
 
 /// Puts a file in its place, unless the same is there.
-Status place(const std::string& bytes, const std::string& hash, const std::string& path, bool may_replace)
+Status place(const std::vector<unsigned char>& bytes, const std::string& hash, const std::string& path,
+             bool may_replace)
 {
     std::error_code error;
     if (!may_replace && fs::exists(path, error)) {
@@ -83,7 +136,7 @@ Status place(const std::string& bytes, const std::string& hash, const std::strin
     const fs::path folder = fs::path(path).parent_path();
     if (!folder.empty() && !fs::create_directories(folder, error) && error)
         return Error{ "folder '" + folder.string() + "' cannot be made: " + error.message() };
-    const Status written = write_output_file(path, bytes);
+    const Status written = write_output_file(path, bytes.data(), bytes.size());
     return written ? written : Status(Error{ "output " + written.error().message });
 }
 
@@ -93,6 +146,12 @@ void prepare_making(OutputFormat format, std::size_t most_references)
 {
     // Photos at a time fill the processor; each by itself has one thread.
     OIIO::attribute("threads", 1);
+    OIIO::attribute("exr_threads", -1); // OpenEXR's own ones
+    // Each image takes the memory that the one before it gave back: new pages cost as much as choosing parameters does.
+    constexpr int kKept = 256 << 20, kOfTheHeap = 32 << 20; // bytes; the latter is glibc's limit
+    ::mallopt(M_TRIM_THRESHOLD, kKept);
+    ::mallopt(M_TOP_PAD, kOfTheHeap);
+    ::mallopt(M_MMAP_THRESHOLD, kOfTheHeap);
     // Of what a writer leaves out of a camera's notes Debian's OpenImageIO tells each time.
     if (!std::getenv("OPENIMAGEIO_DEBUG"))
         OIIO::attribute("debug", 0);
@@ -110,23 +169,21 @@ Expected<ordered_json> run_task(const BatchTask& task, const std::string& path, 
     const auto image_options = options_for(task, options);
     if (!image_options)
         return image_options.error();
-    const auto image = unprocess(task.photo.path, task.reference, *image_options);
-    if (!image)
-        return image.error();
-    const auto bytes = encoded(*image, path, options);
-    if (!bytes)
-        return bytes.error();
-    const std::string hash = hash_of_bytes(bytes->data(), bytes->size());
+    const auto made = options.format == OutputFormat::npy ? encode_npy(task, *image_options, options.depth)
+                                                          : encode_image(task, *image_options, path, options);
+    if (!made)
+        return made.error();
+    const std::string hash = hash_of_bytes(made->bytes.data(), made->bytes.size());
     const auto photo_hash = hash_of_file(task.photo.path);
-    const auto parameters = recorded_parameters(image->spec(), task.photo.path);
+    const auto parameters = recorded_parameters(made->spec, task.photo.path);
     if (!photo_hash || !parameters)
         return photo_hash ? parameters.error() : photo_hash.error();
-    if (const Status placed = place(*bytes, hash, path, may_replace); !placed)
+    if (const Status placed = place(made->bytes, hash, path, may_replace); !placed)
         return placed.error();
     const auto parameters_json = parse_json<ordered_json>(to_json(*parameters, -1));
     const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return ordered_json{ { "output", task.output },
-                         { "bytes", bytes->size() },
+                         { "bytes", made->bytes.size() },
                          { "output_hash", hash },
                          { "settings", settings },
                          { "photo", task.photo.name },
@@ -138,9 +195,9 @@ Expected<ordered_json> run_task(const BatchTask& task, const std::string& path, 
                          { "seed", task.seed },
                          { "model_hash", parameters->model_hash },
                          { "parameters", parameters_json ? *parameters_json : ordered_json() },
-                         { "width", image->spec().width },
-                         { "height", image->spec().height },
-                         { "channels", image->spec().nchannels },
+                         { "width", made->spec.width },
+                         { "height", made->spec.height },
+                         { "channels", made->spec.nchannels },
                          { "time", std::int64_t(std::time(nullptr)) },
                          { "ms", std::int64_t(ms + 0.5) } };
 }

@@ -78,7 +78,8 @@ std::vector<std::string> read_plan(const std::string& output);
 std::string read_settings(const std::string& output, const std::string& hash);
 
 /// Makes one manifest of those of all shards, `all.jsonl`, sorted by output, each with its last line; likewise one list
-/// of what failed. Returns how many results it has. Throws Failure: a run is at work there; a file cannot be read or written.
+/// of what failed. Returns how many results it has. Throws Failure: a run is at work there; a file cannot be read or
+/// written.
 std::size_t merge_manifests(const std::string& output);
 
 } // namespace srisp::tool

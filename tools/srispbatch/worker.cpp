@@ -43,6 +43,8 @@ void Worker::kill()
 
 Status Worker::start()
 {
+    if (m_process)
+        return {};
     std::array<int, 2> to{}, from{};
     if (::pipe2(to.data(), O_CLOEXEC) != 0)
         return Error{ std::strerror(errno) };
@@ -94,9 +96,8 @@ Expected<ordered_json> Worker::run(const BatchTask& task, const std::string& pat
                                    const std::string& settings, bool may_replace, const AskForMemory& ask)
 {
     const std::string photo = "photo '" + task.photo.path + "': ";
-    if (!m_process)
-        if (const Status started = start(); !started)
-            return Error{ photo + "a process for it cannot be started: " + started.error().message };
+    if (const Status started = start(); !started)
+        return Error{ photo + "a process for it cannot be started: " + started.error().message };
     bool timed_out = false;
     std::optional<Message> answer;
     bool heard = send_message(m_to, task_message({ task, path, reference, settings, may_replace }));

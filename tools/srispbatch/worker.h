@@ -22,6 +22,9 @@ public:
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 
+    /// Starts the process, unless it lives: some tenths of a second pass until it can work. Errors: the system's own.
+    Status start();
+
     /// run_task there. `reference`: SharedReference::name, or empty. Errors, beside those: it crashed, it took longer
     /// than the limit, it cannot be started.
     Expected<nlohmann::ordered_json> run(const BatchTask& task, const std::string& path, const std::string& reference,
@@ -31,7 +34,6 @@ public:
     void kill();
 
 private:
-    Status start();
     /// What ended it, in words.
     std::string wait_for_end();
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,13 @@ private:
     std::vector<float> m_pixels;
 };
 
+/// Takes an image as it is computed: first what it says of itself, then its rows from top to bottom, some megabytes at
+/// a time, all channels of a pixel adjacent. An error of theirs ends it.
+struct ImageSink {
+    std::function<Status(const OIIO::ImageSpec& spec)> begin;
+    std::function<Status(const float* rows, int count)> rows;
+};
+
 /// What the camera of the reference would have recorded of the photo's scene, in the reference's light: linear camera
 /// RGB in [0,1]. Photo: any image that OpenImageIO reads (its first subimage); alpha and further channels are kept.
 /// Reference: what load_reference reads, or a folder or glob, of which one file is taken by `options.seed`; may be
@@ -65,6 +73,10 @@ private:
 /// that is RAW-like already.
 SRISP_API Expected<Image> unprocess(const std::string& photo_path, const std::string& reference_path,
                                     const Options& options = {});
+
+/// The same for images that need not be in memory as a whole.
+SRISP_API Status unprocess(const std::string& photo_path, const std::string& reference_path, const Options& options,
+                           const ImageSink& sink);
 
 /// A RAW-like image of ours, or a camera's RAW file (LibRaw demosaics it) → scene-linear colour, in the space that
 /// `options.develop` names, else ACEScg. unprocess() with options.develop does both at once. Errors: as there, and
