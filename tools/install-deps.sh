@@ -14,7 +14,7 @@ packages="
     openimageio-tools python3-openimageio python3-numpy fonts-dejavu-core
 "
 test_packages="clang-format-14 darktable dcraw libgl1-mesa-dri libimage-exiftool-perl libraw-bin libheif-examples make man-db mount
-    munge opencolorio-tools parallel python3-distributed python3-pil python3-pyopencolorio rawtherapee slurm-wlm xauth xvfb"
+    munge opencolorio-tools parallel python3-distributed python3-pil python3-torch python3-pyopencolorio rawtherapee slurm-wlm xauth xvfb"
 trainer_packages="libgloo-dev libopenblas0-openmp libtorch-dev"
 case "$#${1:-}" in
     0) packages="$packages $trainer_packages $test_packages" ;;

@@ -20,7 +20,7 @@ SlurmctldPort=$port
 SlurmUser=root
 SlurmdUser=root
 AuthType=auth/munge
-AuthInfo=socket=$cluster/munge/socket,cred_expire=4
+AuthInfo=socket=$cluster/munge/socket,cred_expire=10
 StateSaveLocation=$cluster/state
 SlurmdSpoolDir=$cluster/spool.%n
 SlurmctldPidFile=$cluster/slurmctld.pid
@@ -35,6 +35,7 @@ SelectType=select/cons_tres
 SelectTypeParameters=CR_CPU
 JobAcctGatherType=jobacct_gather/none
 ReturnToService=2
+BatchStartTimeout=1
 SlurmdTimeout=6
 KillWait=2
 MinJobAge=600

@@ -31,15 +31,20 @@ std::vector<Group> groups_of(const std::vector<Photo>& photos, bool hold)
     return groups;
 }
 
+/// By the sizes of files, unless all shards together would look at too many of them: a file system that many machines
+/// share answers some ten thousand such questions a second. Then there are so many photos that their numbers do as
+/// well.
 std::vector<std::uint64_t> shards_of(const std::vector<Group>& groups, const std::vector<Photo>& photos,
                                      std::uint64_t count)
 {
+    constexpr std::uint64_t kMostLooks = 5'000'000;
+    const bool looks = count > 1 && photos.size() <= kMostLooks / count;
     std::vector<ShardItem> items;
     for (const Group& group : groups) {
         items.push_back({ photos[group[0]].name, 0 });
         for (const std::size_t place : group) {
             std::error_code error; // one that is missing takes no time
-            const std::uintmax_t bytes = count > 1 ? fs::file_size(photos[place].path, error) : 0;
+            const std::uintmax_t bytes = looks ? fs::file_size(photos[place].path, error) : 1;
             items.back().bytes += error ? 0 : bytes;
         }
     }

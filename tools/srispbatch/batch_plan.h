@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,11 +20,11 @@ struct BatchTask {
     Photo photo;
     int copy = 0;
     std::string reference;
-    std::uint64_t seed = 0;               ///< of noise, a sampled brightness and a random crop
-    std::string output;                   ///< relative to the output folder
-    std::optional<Photo> shot;            ///< the photo whose parameters hold, where folders are shots
-    std::uint64_t shot_seed = 0;          ///< its seed
-    std::optional<Parameters> parameters; ///< recorded ones, instead of chosen ones
+    std::uint64_t seed = 0;                       ///< of noise, a sampled brightness and a random crop
+    std::string output;                           ///< relative to the output folder
+    std::optional<Photo> shot;                    ///< the photo whose parameters hold, where folders are shots
+    std::uint64_t shot_seed = 0;                  ///< its seed
+    std::shared_ptr<const Parameters> parameters; ///< recorded ones, instead of chosen ones; null: none
 };
 
 /// What is to be made.

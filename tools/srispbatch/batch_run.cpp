@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include <OpenImageIO/imageio.h>
@@ -88,9 +89,9 @@ public:
         m_manifest.begin();
         m_manifest.write_settings(m_settings_hash, m_settings);
         if (m_options.shard.index == 0) {
-            m_manifest.write_plan(m_plan.outputs);
+            m_manifest.write_plan(m_outputs);
             if (!m_options.copy.empty())
-                m_summary.copied = copy_files(m_options, { m_plan.outputs.begin(), m_plan.outputs.end() });
+                m_summary.copied = copy_files(m_options, { m_outputs.begin(), m_outputs.end() });
         }
         m_report.started(m_summary);
         make_all();
@@ -109,10 +110,13 @@ private:
     /// Finds out what is to be done.
     void plan()
     {
-        m_plan = plan_of(m_options, m_photo_count);
-        for (BatchTask& task : m_plan.tasks) {
+        BatchPlan plan = plan_of(m_options, m_photo_count);
+        m_outputs = std::move(plan.outputs);
+        std::set<std::string> references;
+        for (BatchTask& task : plan.tasks) {
             ++m_summary.planned;
-            m_inputs.add("reference", task.reference);
+            if (references.insert(task.reference).second)
+                m_inputs.add("reference", task.reference);
             if (is_done(task))
                 ++m_summary.done_before;
             else
@@ -285,9 +289,9 @@ private:
     Manifest m_manifest;
     ImageMaker m_maker;
     InputFiles m_inputs; ///< that no result may be written onto
-    BatchPlan m_plan;
     std::int64_t m_photo_count = 0;
-    std::vector<BatchTask> m_tasks; ///< of the plan those that are not done
+    std::vector<std::string> m_outputs; ///< of all shards
+    std::vector<BatchTask> m_tasks;     ///< of this shard those that are not done
     std::map<std::string, std::string> m_reference_hashes;
 
     std::mutex m_mutex; ///< of what follows

@@ -5,7 +5,9 @@
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
+#include <mutex>
 #include <optional>
+#include <thread>
 
 #include <srisp/reference.h>
 
@@ -15,8 +17,9 @@
 #include "base/input_files.h"
 #include "base/json_text.h"
 #include "base/progress.h"
-#include "image_maker.h"
+#include "image_task.h"
 #include "manifest.h"
+#include "memory_limit.h"
 #include "settings.h"
 
 namespace srisp::tool {
@@ -92,7 +95,8 @@ BatchTask task_of(const ordered_json& line)
         task.reference = line.at("reference").get<std::string>();
         task.seed = line.at("seed").get<std::uint64_t>();
         task.output = line.at("output").get<std::string>();
-        task.parameters = require(parameters_from_json(line.at("parameters").dump(), "'" + task.output + "'"));
+        task.parameters = std::make_shared<const Parameters>(
+            require(parameters_from_json(line.at("parameters").dump(), "'" + task.output + "'")));
     } catch (const ordered_json::exception& error) {
         fail(std::string("its line in the manifest cannot be read: ") + error.what());
     }
@@ -117,15 +121,28 @@ std::int64_t verify_set(const BatchOptions& options)
     for (const std::string& name : read_plan(folder))
         if (manifest.entries().count(name) == 0)
             tell(name, "was planned, and is not made");
-    for (const auto& [name, entry] : manifest.entries()) {
-        check_interrupt();
-        const auto hash = hash_of_file((fs::path(folder) / name).string());
-        if (!hash)
-            tell(name, "is missing or cannot be read");
-        else if (*hash != entry.hash)
-            tell(name, "has not the bytes that the manifest names");
-        meter.show(++compared);
-    }
+    std::mutex mutex; // of all that follows
+    auto next = manifest.entries().begin();
+    const auto work = [&] {
+        std::unique_lock lock(mutex);
+        while (next != manifest.entries().end() && !pending_interrupt()) {
+            const auto& [name, entry] = *next++;
+            lock.unlock();
+            const auto hash = hash_of_file((fs::path(folder) / name).string());
+            lock.lock();
+            if (!hash)
+                tell(name, "is missing or cannot be read");
+            else if (*hash != entry.hash)
+                tell(name, "has not the bytes that the manifest names");
+            meter.show(++compared);
+        }
+    };
+    std::vector<std::thread> threads;
+    for (unsigned i = 0; i < photos_at_a_time(options); ++i)
+        threads.emplace_back(work);
+    for (std::thread& thread : threads)
+        thread.join();
+    check_interrupt();
     meter.wipe();
     if (options.json)
         std::printf("{\"event\": \"verified\", \"results\": %lld, \"failed\": %lld}\n", (long long)compared,

@@ -28,9 +28,9 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 /// What making an image takes at most, by its header; 0 where that cannot be read: it will fail.
-std::uint64_t memory_for(const std::string& photo)
+std::uint64_t memory_for(const std::string& photo, bool resized)
 {
-    constexpr std::uint64_t kBytesPerPixel = 24; // codes, the floats of a resized one, the result's bytes
+    constexpr std::uint64_t kPixel = 24, kResizedPixel = 48; // bytes: codes and the result's file; floats of the whole
     std::error_code ignored;
     if (!fs::is_regular_file(photo, ignored))
         return 0;
@@ -40,7 +40,7 @@ std::uint64_t memory_for(const std::string& photo)
         OIIO::geterror();
         return 0;
     }
-    return std::uint64_t(input->spec().image_pixels()) * kBytesPerPixel;
+    return std::uint64_t(input->spec().image_pixels()) * (resized ? kResizedPixel : kPixel);
 }
 
 /// A result as the bytes of its file, and what it says of itself.
@@ -108,7 +108,7 @@ Expected<Options> options_for(const BatchTask& task, const MakingOptions& option
     Options image = options.image;
     image.seed = image.noise_seed = task.seed;
     if (task.parameters) {
-        image.parameters = task.parameters;
+        image.parameters = *task.parameters;
         image.brightness = {}; // they are as bright as they became
     } else if (task.shot) {
         const auto parameters = shot_parameters(*task.shot, task.reference, task.shot_seed, options.image);
@@ -164,7 +164,7 @@ void prepare_making(OutputFormat format, std::size_t most_references)
 Expected<ordered_json> run_task(const BatchTask& task, const std::string& path, const MakingOptions& options,
                                 const std::string& settings, bool may_replace, const AskForMemory& ask)
 {
-    ask(memory_for(task.photo.path));
+    ask(memory_for(task.photo.path, !options.image.resize.empty() || !options.image.crop.empty()));
     const auto start = std::chrono::steady_clock::now();
     const auto image_options = options_for(task, options);
     if (!image_options)

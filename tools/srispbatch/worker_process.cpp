@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <csignal>
 #include <exception>
+#include <new>
 
 #include "memory_limit.h"
 #include "messages.h"
@@ -27,14 +28,15 @@ void follow_the_other_process()
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
 }
 
-/// A decoder that asks for more memory than all photos may take together is refused it.
-void limit_memory(const BatchOptions& options)
+/// A decoder that asks for more memory than all photos may take together is refused it, unless its photo's header says
+/// that it takes so much, `bytes`: then it is made alone.
+void limit_memory(const BatchOptions& options, std::uint64_t bytes)
 {
     constexpr rlim_t kOwn = rlim_t(1) << 30; // model, references, libraries
     rlimit limit{};
     if (::getrlimit(RLIMIT_DATA, &limit) != 0)
         return;
-    limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, rlim_t(memory_limit(options)) + kOwn);
+    limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, rlim_t(std::max(memory_limit(options), bytes)) + kOwn);
     ::setrlimit(RLIMIT_DATA, &limit);
 }
 
@@ -45,14 +47,18 @@ Message answer_to(const WorkerTask& task, const BatchOptions& options, int from,
         bool timed_out = false;
         if (!send_message(to, { std::to_string(bytes) }) || !receive_message(from, kForever, timed_out))
             ::_exit(1); // nobody waits for this image
+        limit_memory(options, bytes);
     };
+    const std::string photo = "photo '" + task.task.photo.path + "': ";
     try {
         const auto line = run_task(task.task, task.path, options, task.settings, task.may_replace, ask);
         if (line)
             return { kTaskDone, line->dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace) };
         return { kTaskFailed, line.error().message };
+    } catch (const std::bad_alloc&) {
+        return { kTaskFailed, photo + "takes more memory than its size explains (--memory)" };
     } catch (const std::exception& error) {
-        return { kTaskFailed, "photo '" + task.task.photo.path + "': " + error.what() };
+        return { kTaskFailed, photo + error.what() };
     }
 }
 
@@ -61,7 +67,7 @@ Message answer_to(const WorkerTask& task, const BatchOptions& options, int from,
 void serve_tasks(const BatchOptions& options)
 {
     follow_the_other_process();
-    limit_memory(options);
+    limit_memory(options, 0);
     prepare_making(options.format, most_references(options, photos_at_a_time(options)));
     // What a library prints on stdout is none of the answers.
     const int to = ::dup(STDOUT_FILENO);

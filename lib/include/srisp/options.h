@@ -117,9 +117,9 @@ struct Options {
 
 /// Sets one option by its name, as a query, a recipe and srisptool do: model, params (the path of a JSON file), input
 /// (auto, srgb, linear), precision (float32, fast), brightness (EV, sample), seed, gainmap (ignore, apply),
-/// allow_partial (0, 1), isolate (0, 1), resize, crop, mosaic (reference, RGGB, …), levels (unit, camera), noise, profile,
-/// noise_seed, develop, whitebalance (scene, reference, KELVIN, KELVIN,TINT, R,G,B), exposure (EV), highlights (clip,
-/// blend, keep). Errors: unknown keys and values (the near ones listed), a file that cannot be read.
+/// allow_partial (0, 1), isolate (0, 1), resize, crop, mosaic (reference, RGGB, …), levels (unit, camera), noise,
+/// profile, noise_seed, develop, whitebalance (scene, reference, KELVIN, KELVIN,TINT, R,G,B), exposure (EV), highlights
+/// (clip, blend, keep). Errors: unknown keys and values (the near ones listed), a file that cannot be read.
 SRISP_API Status set_option(Options& options, const std::string& key, const std::string& value);
 
 } // namespace srisp
