@@ -262,3 +262,51 @@ TEST_CASE("one call develops: a photo, its RAW-like image, a camera's file")
     options.develop = "nothing";
     CHECK(has(refusal(develop(kReference, options)), "unknown scene-linear colour space 'nothing'"));
 }
+
+TEST_CASE("a sink gets the image's rows, and a file's bytes are those that are saved")
+{
+    Options options;
+    options.noise = "shot=0.01,read=1e-4";
+    const auto whole = unprocess(kPhoto, kReference, options);
+    REQUIRE(whole);
+    OIIO::ImageSpec spec;
+    std::vector<float> pixels;
+    ImageSink sink;
+    sink.begin = [&](const OIIO::ImageSpec& known) -> Status {
+        spec = known;
+        return {};
+    };
+    sink.rows = [&](const float* rows, int count) -> Status {
+        pixels.insert(pixels.end(), rows, rows + std::size_t(count) * spec.width * spec.nchannels);
+        return {};
+    };
+    REQUIRE(unprocess(kPhoto, kReference, options, sink));
+    CHECK(pixels == whole->pixels());
+    CHECK(spec.height == whole->spec().height);
+
+    const ScratchFolder folder;
+    for (const char* name : { "raw.exr", "raw.tif", "raw.png" }) {
+        const auto bytes = whole->encode(folder.path(name));
+        REQUIRE(bytes);
+        REQUIRE(whole->save(folder.path(name)));
+        std::ostringstream saved;
+        saved << std::ifstream(folder.path(name), std::ios::binary).rdbuf();
+        CHECK(saved.str() == std::string(bytes->begin(), bytes->end()));
+    }
+    CHECK(!whole->encode("raw.nothing"));
+}
+
+TEST_CASE("an error of a sink ends the image")
+{
+    int calls = 0;
+    ImageSink sink;
+    sink.begin = [&](const OIIO::ImageSpec&) { return Status(Error{ "full" }); };
+    sink.rows = [&](const float*, int) -> Status {
+        ++calls;
+        return {};
+    };
+    const Status done = unprocess(kPhoto, kReference, {}, sink);
+    REQUIRE(!done);
+    CHECK(done.error().message == "full");
+    CHECK(calls == 0);
+}
