@@ -6,12 +6,12 @@
 . "$source/tests/cli/slurm_cluster.sh"
 PATH=$build/bin:$PATH
 
-"$batch" photos --reference refs -o out --per-image 60 -q || exit 1
+"$batch" photos --reference refs -o out --per-image 80 -q || exit 1
 
 if command -v parallel >/dev/null; then
     # The line of docs/batch.md.
     with_parallel() {
-        seq 0 3 | parallel -j 2 srispbatch photos/ --reference refs/ -o parallel --per-image 60 --threads 1 -q --shard {}/4 &&
+        seq 0 3 | parallel -j 2 srispbatch photos/ --reference refs/ -o parallel --per-image 80 --threads 1 -q --shard {}/4 &&
             same_results out parallel
     }
     check "GNU parallel" with_parallel
@@ -43,19 +43,19 @@ submit() { # submit OUTPUT OPTIONS OF sbatch…
     folder=$1
     shift
     sbatch --parsable --mem-per-cpu=100 --cpus-per-task=1 -o "$scratch/slurm-%a.log" "$@" "$script" photos --reference refs -o "$folder" \
-        --per-image 60 -q
+        --per-image 80 -q
 }
 at_work() { # at_work NODE: a task there has made some of its results
     task=$(squeue -h -w "$1" -t R -o %K) && [ -n "$task" ] && [ "$(cat "array/manifest/$task-of-8.jsonl" 2>/dev/null | wc -l)" -gt 10 ]
 }
 lost_node() {
-    job=$(submit array --array=0-7) && wait_for 30 at_work n2 || return 1
+    job=$(submit array --array=0-7) && wait_for 60 at_work n2 || return 1
     lose_node n2
     scancel "${job}_7"
     sleep 1
     start_node n2 # it is mended
     submit array --array=7 >/dev/null # what was cancelled comes again
-    wait_for 100 no_jobs && same_results out array && grep -q "NODE_FAIL\|requeue\|Requeue" "$cluster/slurmctld.log" && return 0
+    wait_for 300 no_jobs && same_results out array && grep -q "NODE_FAIL\|requeue\|Requeue" "$cluster/slurmctld.log" && return 0
     diff one.txt two.txt
     cat slurm-*.log
     tail -n 40 "$cluster/slurmctld.log"
@@ -67,7 +67,7 @@ check "the job that depends on it has merged the manifests" verified
 out_of_time() { # a signal like the one before the time limit
     submit short --array=0-0 >short.txt && wait_for 30 [ -s short/manifest/all.jsonl ] || return 1
     scancel --signal=USR1 --batch "$(cat short.txt)_0"
-    wait_for 60 no_jobs && same_results out short && grep -q "[Rr]equeue\|Terminated\|143" slurm-0.log || cat slurm-0.log
+    wait_for 200 no_jobs && same_results out short && grep -q "[Rr]equeue\|Terminated\|143" slurm-0.log || cat slurm-0.log
 }
 check "a task whose time is nearly up is queued again and goes on" out_of_time
 finish
