@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "finished_set.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <filesystem>

@@ -2,6 +2,7 @@
 #include "messages.h"
 
 #include <poll.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -62,7 +63,7 @@ bool send_message(int file, const Message& message)
         bytes += text;
     }
     for (std::size_t at = 0; at < bytes.size();) {
-        const ssize_t count = ::write(file, bytes.data() + at, bytes.size() - at);
+        const ssize_t count = ::send(file, bytes.data() + at, bytes.size() - at, MSG_NOSIGNAL);
         if (count < 0 && errno != EINTR)
             return false;
         at += std::size_t(std::max<ssize_t>(count, 0));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "worker.h"
 
-#include <fcntl.h>
 #include <spawn.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -45,19 +45,13 @@ Status Worker::start()
 {
     if (m_process)
         return {};
-    std::array<int, 2> to{}, from{};
-    if (::pipe2(to.data(), O_CLOEXEC) != 0)
+    std::array<int, 2> ends{};
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
         return Error{ std::strerror(errno) };
-    if (::pipe2(from.data(), O_CLOEXEC) != 0) {
-        const int error = errno;
-        ::close(to[0]);
-        ::close(to[1]);
-        return Error{ std::strerror(error) };
-    }
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, to[0], STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, from[1], STDOUT_FILENO);
+    for (const int file : { STDIN_FILENO, STDOUT_FILENO })
+        posix_spawn_file_actions_adddup2(&actions, ends[1], file);
     std::vector<char*> arguments;
     for (std::string& argument : m_arguments)
         arguments.push_back(argument.data());
@@ -65,28 +59,24 @@ Status Worker::start()
     pid_t process = 0;
     const int failed = ::posix_spawn(&process, arguments[0], &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
-    ::close(to[0]);
-    ::close(from[1]);
-    m_to = to[1];
-    m_from = from[0];
-    if (!failed) {
-        m_process = process;
-        return {};
+    ::close(ends[1]);
+    if (failed) {
+        ::close(ends[0]);
+        return Error{ std::strerror(failed) };
     }
-    ::close(std::exchange(m_to, -1));
-    ::close(std::exchange(m_from, -1));
-    return Error{ std::strerror(failed) };
+    m_socket = ends[0];
+    m_process = process;
+    return {};
 }
 
 std::string Worker::wait_for_end()
 {
     // It ends when it finds its input closed, if it still lives.
-    ::close(std::exchange(m_to, -1));
+    ::close(std::exchange(m_socket, -1));
     int status = 0;
     while (::waitpid(m_process, &status, 0) < 0 && errno == EINTR) {
     }
     m_process = 0;
-    ::close(std::exchange(m_from, -1));
     if (WIFSIGNALED(status))
         return std::string("crashed the decoder (") + ::strsignal(WTERMSIG(status)) + ")";
     return "ended the decoder with exit code " + std::to_string(WEXITSTATUS(status));
@@ -100,11 +90,11 @@ Expected<ordered_json> Worker::run(const BatchTask& task, const std::string& pat
         return Error{ photo + "a process for it cannot be started: " + started.error().message };
     bool timed_out = false;
     std::optional<Message> answer;
-    bool heard = send_message(m_to, task_message({ task, path, reference, settings, may_replace }));
-    if (heard && (answer = receive_message(m_from, m_time_limit, timed_out)) && answer->size() == 1) {
+    bool heard = send_message(m_socket, task_message({ task, path, reference, settings, may_replace }));
+    if (heard && (answer = receive_message(m_socket, m_time_limit, timed_out)) && answer->size() == 1) {
         ask(std::strtoull((*answer)[0].c_str(), nullptr, 10));
-        heard = send_message(m_to, { "go on" });
-        answer = heard ? receive_message(m_from, m_time_limit, timed_out) : std::nullopt;
+        heard = send_message(m_socket, { "go on" });
+        answer = heard ? receive_message(m_socket, m_time_limit, timed_out) : std::nullopt;
     }
     if (answer && answer->size() == 2) {
         const auto& [kind, text] = std::make_pair((*answer)[0], (*answer)[1]);

@@ -40,7 +40,7 @@ private:
     std::vector<std::string> m_arguments;
     const double m_time_limit;
     std::atomic<pid_t> m_process{ 0 }; ///< 0: there is none
-    int m_to = -1, m_from = -1;
+    int m_socket = -1;                 ///< its stdin and stdout
 };
 
 /// What a worker does: the tasks that come on stdin, one after the other, until that ends.

@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include "../../../tools/srispbatch/task_message.h"
@@ -14,9 +15,9 @@ using namespace srisp::tool;
 
 namespace {
 
-struct Pipe {
-    Pipe() { REQUIRE(::pipe(ends.data()) == 0); }
-    ~Pipe()
+struct Sockets {
+    Sockets() { REQUIRE(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()) == 0); }
+    ~Sockets()
     {
         close_writer();
         ::close(ends[0]);
@@ -34,7 +35,7 @@ struct Pipe {
 
 TEST_CASE("messages of any bytes arrive as they were sent")
 {
-    Pipe pipe;
+    Sockets pipe;
     const Message sent{ "", std::string("\0\n\xff", 3), std::string(40'000, 'x') };
     REQUIRE(send_message(pipe.ends[1], sent));
     bool timed_out = true;
@@ -47,17 +48,26 @@ TEST_CASE("messages of any bytes arrive as they were sent")
 TEST_CASE("no message: time is up, the other end is closed, or what comes is none")
 {
     bool timed_out = false;
-    Pipe slow;
+    Sockets slow;
     CHECK(!receive_message(slow.ends[0], 0.05, timed_out));
     CHECK(timed_out);
-    Pipe closed;
+    Sockets closed;
     closed.close_writer();
     CHECK(!receive_message(closed.ends[0], 5, timed_out));
     CHECK(!timed_out);
-    Pipe confused;
+    Sockets confused;
     REQUIRE(::write(confused.ends[1], "printed by a library", 20) == 20);
     CHECK(!receive_message(confused.ends[0], 5, timed_out));
     CHECK(!timed_out);
+}
+
+TEST_CASE("to whom is gone nothing is said, and who says it goes on")
+{
+    std::array<int, 2> ends{};
+    REQUIRE(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()) == 0);
+    ::close(ends[1]);
+    CHECK(!send_message(ends[0], { "go on" }));
+    ::close(ends[0]);
 }
 
 TEST_CASE("a worker is told all of a task")
