@@ -54,4 +54,11 @@ fs::path own_program(const std::string& name)
     });
 }
 
+std::string plugins_beside()
+{
+    const fs::path folder = own_file().parent_path() / "srisp";
+    std::error_code error;
+    return fs::exists(folder / "dng.imageio.so", error) ? folder.string() : "";
+}
+
 } // namespace srisp

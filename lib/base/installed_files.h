@@ -16,4 +16,7 @@ std::filesystem::path shared_folder(const std::string& name);
 /// (others than this user, root, and the owner of this code) is none.
 std::filesystem::path own_program(const std::string& name);
 
+/// Where the plugins for OpenImageIO lie beside this library; empty: they do not, or this is no library.
+std::string plugins_beside();
+
 } // namespace srisp

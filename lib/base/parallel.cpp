@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/parallel.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
@@ -77,10 +79,13 @@ private:
     bool m_closed = false;
 };
 
+/// A process that was forked later (a DataLoader's worker) has the pool, but none of its threads.
+const pid_t loading_process = ::getpid();
+
 /// How many threads take part, the caller's among them.
 std::int64_t workers_for(std::int64_t count, int threads)
 {
-    if (count <= 1 || threads == 1)
+    if (count <= 1 || threads == 1 || ::getpid() != loading_process)
         return 1;
     const OIIO::thread_pool& pool = *OIIO::default_thread_pool();
     if (pool.is_worker())

@@ -107,10 +107,15 @@ Expected<std::shared_ptr<const PhotoRows>> PhotoReader::rows(int y0, int y1)
     return std::shared_ptr<const PhotoRows>(rows);
 }
 
+Expected<std::shared_ptr<const PhotoRows>> PhotoReader::next(int y0)
+{
+    return rows(y0, std::min(y0 + m_band_rows, m_height));
+}
+
 Status PhotoReader::read_all(const std::function<Status(ImageView rows, int y0)>& use)
 {
     for (int y = 0; y < m_height; y += m_band_rows) {
-        const auto read = rows(y, std::min(y + m_band_rows, m_height));
+        const auto read = next(y);
         if (!read)
             return read.error();
         m_counts += (*read)->counts((*read)->y0, (*read)->y1);
@@ -120,21 +125,23 @@ Status PhotoReader::read_all(const std::function<Status(ImageView rows, int y0)>
     return {};
 }
 
-Expected<Thumbnail> PhotoReader::thumbnail()
+Expected<Thumbnail> PhotoReader::thumbnail(const std::function<bool()>& cancelled)
 {
     ThumbnailBuilder builder(m_width, m_height);
-    const Status read = read_all([&](ImageView rows, int) {
+    const Status read = read_all([&](ImageView rows, int) -> Status {
+        if (cancelled && cancelled())
+            return Error{ m_source.name() + ": cancelled" };
         builder.add_rows(rows);
-        return Status();
+        return {};
     });
     if (!read)
         return read.error();
     return builder.finish(m_orientation);
 }
 
-Expected<PhotoFile> PhotoFile::open(const std::string& path, const Options& options)
+Expected<PhotoFile> PhotoFile::open(const ImageInput& photo, const Options& options)
 {
-    auto source = open_file_source(path, "photo", reading_hints(options));
+    auto source = open_source(photo, "photo", reading_hints(options));
     if (!source)
         return source.error();
     const std::string& where = (*source)->name();
@@ -144,7 +151,7 @@ Expected<PhotoFile> PhotoFile::open(const std::string& path, const Options& opti
     auto converter = PhotoConverter::create(*spec, options.input, where);
     if (!converter)
         return converter.error();
-    return PhotoFile(std::move(*source), std::move(*spec), std::move(*converter));
+    return PhotoFile(std::move(*source), std::move(*spec), std::move(*converter), options.threads);
 }
 
 std::vector<std::string> PhotoFile::notes(const PhotoCounts& counts) const
@@ -155,11 +162,12 @@ std::vector<std::string> PhotoFile::notes(const PhotoCounts& counts) const
     return all;
 }
 
-Expected<Thumbnail> load_photo_thumbnail(const std::string& path)
+Expected<Thumbnail> load_photo_thumbnail(const ImageInput& photo, const Options& options,
+                                         const std::function<bool()>& cancelled)
 {
-    return guarded("photo", path, [&] {
-        auto photo = PhotoFile::open(path);
-        return photo ? photo->reader().thumbnail() : Expected<Thumbnail>(photo.error());
+    return guarded("photo", photo.name(), [&] {
+        auto file = PhotoFile::open(photo, options);
+        return file ? file->reader().thumbnail(cancelled) : Expected<Thumbnail>(file.error());
     });
 }
 

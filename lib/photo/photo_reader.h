@@ -39,11 +39,13 @@ public:
 
     /// Rows y0 ≤ y < y1 of the data window.
     Expected<std::shared_ptr<const PhotoRows>> rows(int y0, int y1);
+    /// The rows from y0 on that are read at a time, some megabytes.
+    Expected<std::shared_ptr<const PhotoRows>> next(int y0);
 
     /// Calls use(rows, y0) for all rows once, from top to bottom, some megabytes at a time; its error ends the pass.
     Status read_all(const std::function<Status(ImageView rows, int y0)>& use);
-    /// All rows once, squashed and turned upright.
-    Expected<Thumbnail> thumbnail();
+    /// All rows once, squashed and turned upright. `cancelled`: asked now and then; true ends it.
+    Expected<Thumbnail> thumbnail(const std::function<bool()>& cancelled = {});
     /// What conversion changed in the rows of `read_all`.
     const PhotoCounts& counts() const { return m_counts; }
 
@@ -59,13 +61,13 @@ private:
     PhotoCounts m_counts;
 };
 
-/// A photo on disk, whole, read as PhotoReader does on the calling thread.
+/// A photo, whole, read as PhotoReader does.
 class PhotoFile {
 public:
-    /// Opens any image that OpenImageIO reads and takes its first picture; of the options `input` and `allow_partial`
-    /// count. Errors start with "photo 'path': ":
-    /// missing, no image, nothing that can be a photo (see PhotoConverter).
-    static Expected<PhotoFile> open(const std::string& path, const Options& options = {});
+    /// Opens any image that OpenImageIO reads and takes its first picture; of the options `input`, `gain_map`,
+    /// `allow_partial` and `threads` count. Errors start with "photo 'path': ": missing, no image, nothing that can be
+    /// a photo (see PhotoConverter).
+    static Expected<PhotoFile> open(const ImageInput& photo, const Options& options);
 
     /// As stored, pixels of the data window; `orientation` (EXIF, 1 … 8) turns them upright.
     int width() const { return m_spec.width; }
@@ -75,17 +77,18 @@ public:
     /// What was assumed or changed, one sentence each; `counts`: of the reader that read all of it.
     std::vector<std::string> notes(const PhotoCounts& counts) const;
 
-    PhotoReader reader() { return PhotoReader(*m_source, 0, 0, m_spec, m_converter, 1); }
+    PhotoReader reader() { return PhotoReader(*m_source, 0, 0, m_spec, m_converter, m_threads); }
 
 private:
-    PhotoFile(std::unique_ptr<PixelSource> source, OIIO::ImageSpec spec, PhotoConverter converter)
-        : m_source(std::move(source)), m_spec(std::move(spec)), m_converter(std::move(converter))
+    PhotoFile(std::unique_ptr<PixelSource> source, OIIO::ImageSpec spec, PhotoConverter converter, int threads)
+        : m_source(std::move(source)), m_spec(std::move(spec)), m_converter(std::move(converter)), m_threads(threads)
     {
     }
 
     std::unique_ptr<PixelSource> m_source;
     OIIO::ImageSpec m_spec;
     PhotoConverter m_converter;
+    int m_threads;
 };
 
 } // namespace srisp

@@ -8,6 +8,7 @@
 
 #include <OpenImageIO/imageio.h>
 #include <srisp/expected.h>
+#include <srisp/image_input.h>
 #include <srisp/options.h>
 
 #include "gain_map/gain_map.h"
@@ -48,5 +49,13 @@ OIIO::ImageSpec reading_hints(const Options& options, const OIIO::ImageSpec& con
 /// "photo 'path'", and so errors start. `config`: the host's hints. Reads headers only.
 Expected<std::unique_ptr<PixelSource>> open_file_source(const std::string& path, const std::string& kind,
                                                         const OIIO::ImageSpec& config = {});
+
+/// An image in memory, whose pixels are read as they are needed. `kind` as above; without a name it is "photo in
+/// memory". Errors: no pixels, or too many; a volume.
+Expected<std::unique_ptr<PixelSource>> open_memory_source(const MemoryImage& image, const std::string& kind);
+
+/// Whichever it is.
+Expected<std::unique_ptr<PixelSource>> open_source(const ImageInput& input, const std::string& kind,
+                                                   const OIIO::ImageSpec& config = {});
 
 } // namespace srisp

@@ -287,7 +287,8 @@ Status check_complete(const Recipe& recipe, const std::string& where)
         return Error{ where + ": names no colour space to develop into" };
     if (recipe.action == Recipe::Action::sensor && !senses)
         return Error{ where + ": names neither mosaic nor noise" };
-    if (selects && recipe.direction == Direction::reverse && recipe.references.empty() && !recipe.parameters)
+    if (selects && recipe.direction == Direction::reverse && recipe.references.empty() && !recipe.reference &&
+        !recipe.parameters)
         return Error{ where + ": names no reference (a RAW file) and no parameters" };
     return {};
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -8,6 +11,8 @@
 #include <srisp/options.h>
 
 namespace srisp {
+
+struct Reference;
 
 /// What is to be done with one image: the contents of a `.srisp` file, of a query, or of a job that srisptool wrote.
 /// Which of it each of these may say: option_table.h.
@@ -24,7 +29,8 @@ struct Recipe : Options {
     std::string source; ///< path of the photo; empty in a job whose pixels come by hand-over; a frame pattern in
                         ///< one that reads frames
     Direction direction = Direction::reverse;
-    std::vector<std::string> references; ///< files, folders and globs; may be empty where parameters are given
+    std::vector<std::string> references;        ///< files, folders and globs; may be empty where parameters are given
+    std::shared_ptr<const Reference> reference; ///< in their place: one that is loaded
     bool lazy = false;     ///< opening reads headers only; metadata lacks parameters that must be selected
     bool hold = false;     ///< the first image's parameters hold for all later ones of this process
     bool progress = false; ///< on stderr, after two seconds
@@ -34,6 +40,10 @@ struct Recipe : Options {
     std::string name;    ///< what a handed-over image is called: in print's output and where seed chooses a reference
     std::string command; ///< what the user typed; recorded in the result where srisptool says it
     std::string path;    ///< of the recipe or job itself; key of `hold`
+    std::function<bool()> cancelled; ///< asked now and then by the calling thread; true ends what is under way
+
+    /// What decides, with a seed, among references and samples.
+    std::string photo_name() const { return std::filesystem::path(source.empty() ? name : source).filename().string(); }
 };
 
 /// Reads a recipe (`is_job` false) or job from its JSON text. `path` is where it lies: paths in it are relative to its

@@ -135,7 +135,7 @@ Status BandReader::apply(const PhotoRows& rows, Roi roi, Target rgb)
             std::snprintf(text, sizeof text, "srisp: %3.0f %%", (m_bands_done + part) / m_done.size() * 100.0);
             return std::string(text);
         });
-        return true;
+        return !m_settings.cancelled || !m_settings.cancelled();
     };
     const int height = roi.y1 - roi.y0;
     const Status applied =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -15,9 +16,10 @@ namespace srisp {
 struct BandSettings {
     std::shared_ptr<const PhotoConverter> converter;
     std::shared_ptr<const Applier> applier;
-    bool associate = true; ///< multiply alpha in
-    bool progress = false; ///< on stderr
-    int threads = 0;       ///< as ApplyOptions
+    bool associate = true;           ///< multiply alpha in
+    bool progress = false;           ///< on stderr
+    int threads = 0;                 ///< as ApplyOptions
+    std::function<bool()> cancelled; ///< as in Recipe
 };
 
 /// Computes the result of one level band by band, in the order in which rows are asked for: the image as a whole is

@@ -19,11 +19,10 @@ std::string held_key(const Recipe& recipe, int subimage)
 
 } // namespace
 
-Expected<Chooser> Chooser::create(const Recipe& recipe, const std::string& photo_name, KeptResults& kept)
+Expected<Chooser> Chooser::create(const Recipe& recipe, KeptResults& kept)
 {
     Chooser chooser(kept);
     chooser.m_recipe = recipe;
-    chooser.m_photo_name = photo_name;
     const std::optional<Parameters>& given = recipe.parameters;
     const bool reverse = recipe.direction == Direction::reverse;
     const bool named = given && !given->model_name.empty();
@@ -40,8 +39,8 @@ Expected<Chooser> Chooser::create(const Recipe& recipe, const std::string& photo
     if (given)
         if (const Status fits = check_parameters(*given, *chooser.m_model); !fits)
             return fits.error();
-    if (!recipe.references.empty() && recipe.direction == Direction::reverse) {
-        auto reference = choose_reference(recipe.references, recipe.seed, photo_name);
+    if (!recipe.reference && !recipe.references.empty() && reverse) {
+        auto reference = choose_reference(recipe.references, recipe.seed, recipe.photo_name());
         if (!reference)
             return reference.error();
         chooser.m_reference = *reference;
@@ -56,7 +55,7 @@ std::string Chooser::key(const PixelSource& source, int subimage) const
 {
     return source.key() + "\n" + std::to_string(subimage) + "\n" + std::to_string(static_cast<int>(m_recipe.input)) +
            "\n" + m_model->hash() + "\n" + (m_recipe.parameters ? to_json(*m_recipe.parameters, -1) : "") + "\n" +
-           reference_state(m_reference);
+           (m_recipe.reference ? m_recipe.reference->hash : reference_state(m_reference));
 }
 
 Choice Chooser::given() const
@@ -67,12 +66,19 @@ Choice Chooser::given() const
     return choice;
 }
 
+Expected<std::shared_ptr<const Reference>> Chooser::reference() const
+{
+    if (m_recipe.reference)
+        return m_recipe.reference;
+    return load_reference_cached(m_reference, m_recipe.isolate);
+}
+
 Expected<ChoicePtr> Chooser::finished(const PixelSource& source, int subimage, ChoicePtr choice) const
 {
     if (m_recipe.brightness) {
         Choice changed = *choice;
-        const Status chosen =
-            choose_brightness(changed.parameters, *m_recipe.brightness, m_recipe.seed, m_photo_name, &changed.notes);
+        const Status chosen = choose_brightness(changed.parameters, *m_recipe.brightness, m_recipe.seed,
+                                                m_recipe.photo_name(), &changed.notes);
         if (!chosen)
             return Error{ source.name() + ": " + chosen.error().message };
         choice = std::make_shared<const Choice>(std::move(changed));
@@ -85,9 +91,8 @@ Expected<ChoicePtr> Chooser::known(const PixelSource& source, int subimage, cons
     if (m_recipe.direction == Direction::reverse) {
         if (const ChoicePtr held = m_recipe.hold ? m_kept->held_choices.find(held_key(m_recipe, subimage)) : nullptr)
             return held;
-        const ChoicePtr choice = m_recipe.parameters && m_reference.empty()
-                                     ? std::make_shared<const Choice>(given())
-                                     : m_kept->choices.find(key(source, subimage));
+        const ChoicePtr choice = m_recipe.parameters && !has_reference() ? std::make_shared<const Choice>(given())
+                                                                         : m_kept->choices.find(key(source, subimage));
         return choice ? finished(source, subimage, choice) : choice;
     }
     if (!m_recipe.parameters && !is_unprocessed(stored))
@@ -129,7 +134,7 @@ Expected<std::shared_ptr<const PreparedReference>> Chooser::prepared(const Refer
 Expected<ChoicePtr> Chooser::select_new(PixelSource& source, int subimage, const OIIO::ImageSpec& stored,
                                         const PhotoConverter& converter, int threads) const
 {
-    auto reference = load_reference_cached(m_reference, m_recipe.isolate);
+    const auto reference = this->reference();
     if (!reference)
         return reference.error();
     if (m_recipe.parameters) {
@@ -144,7 +149,7 @@ Expected<ChoicePtr> Chooser::select_new(PixelSource& source, int subimage, const
         return Error{ source.name() + ": " + features.error().message };
     source.expect_second_pass(subimage);
     PhotoReader photo(source, subimage, 0, stored, converter, threads);
-    const auto thumbnail = photo.thumbnail();
+    const auto thumbnail = photo.thumbnail(m_recipe.cancelled);
     if (!thumbnail)
         return thumbnail.error();
     auto parameters = select(*m_model, *thumbnail, **features, &choice->notes);

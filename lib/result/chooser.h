@@ -29,9 +29,8 @@ using ChoicePtr = std::shared_ptr<const Choice>;
 /// and the reference files, subimage, model's hash, settings), since hosts open a file several times.
 class Chooser {
 public:
-    /// Finds what can be wrong without decoding anything: model, parameters, reference's path. `photo_name`: with the
-    /// seed it decides which of several references is taken.
-    static Expected<Chooser> create(const Recipe& recipe, const std::string& photo_name, KeptResults& kept);
+    /// Finds what can be wrong without decoding anything: model, parameters, reference's path.
+    static Expected<Chooser> create(const Recipe& recipe, KeptResults& kept);
 
     /// The parameters if they are known without decoding anything: given, held, selected before, or recorded in the
     /// image (forward). Null: they must be selected. `stored`: spec of MIP level 0.
@@ -45,6 +44,8 @@ private:
     explicit Chooser(KeptResults& kept) : m_kept(&kept) {}
     /// The parameters of the recipe.
     Choice given() const;
+    Expected<std::shared_ptr<const Reference>> reference() const;
+    bool has_reference() const { return m_recipe.reference || !m_reference.empty(); }
     /// As bright as the recipe asks for; held from now on where it says so.
     Expected<ChoicePtr> finished(const PixelSource& source, int subimage, ChoicePtr choice) const;
     Expected<std::shared_ptr<const PreparedReference>> prepared(const Reference& reference) const;
@@ -54,9 +55,8 @@ private:
 
     KeptResults* m_kept;
     Recipe m_recipe;
-    std::string m_photo_name;
     std::shared_ptr<const Model> m_model; ///< null: the image's record says which (forward)
-    std::string m_reference;              ///< path of the chosen file; may be empty
+    std::string m_reference;              ///< path of the chosen file; empty: the recipe has it loaded, or has none
 };
 
 } // namespace srisp

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/installed_files.h"
 #include "base/png_orientation.h"
 
 namespace srisp {
@@ -45,7 +46,7 @@ FileEncoder::FileEncoder(std::unique_ptr<OIIO::ImageOutput> output, const std::s
 
 Expected<FileEncoder> FileEncoder::create(const std::string& name)
 {
-    FileEncoder encoder(OIIO::ImageOutput::create(name), name);
+    FileEncoder encoder(OIIO::ImageOutput::create(name, nullptr, plugins_beside()), name);
     if (!encoder.m_output)
         return Error{ OIIO::geterror() };
     if (!encoder.m_output->supports("ioproxy") || !encoder.m_output->set_ioproxy(encoder.m_memory.get()))

@@ -2,46 +2,17 @@
 #include <srisp/srisp.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
-#include <system_error>
 
 #include "base/guarded.h"
-#include "base/named_output.h"
 #include "recipe/recipe.h"
 #include "result/computed_image.h"
-#include "result/file_encoder.h"
 #include "result/kept_results.h"
+#include "result/photo_image.h"
 #include "result/recipe_source.h"
 
 namespace srisp {
 
 namespace {
-
-Status store(const std::string& path, const std::vector<unsigned char>& bytes)
-{
-    std::FILE* const file = std::fopen(path.c_str(), "wb");
-    bool stored = file && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() && std::fflush(file) == 0;
-    const int error = errno;
-    if (file && std::fclose(file) != 0)
-        stored = false;
-    return stored ? Status() : Status(Error{ std::strerror(error) });
-}
-
-Status write_file(OIIO::ImageOutput& output, const std::string& path, const OIIO::ImageSpec& spec, const float* pixels)
-{
-    if (output.open(path, spec) && output.write_image(OIIO::TypeFloat, pixels) && output.close())
-        return {};
-    const std::string reason = output.geterror();
-    return Error{ reason.empty() ? "its writer does not say why" : reason };
-}
-
-Error write_error(const std::string& path, const std::string& reason)
-{
-    return { "image '" + path + "' cannot be written: " + reason };
-}
 
 /// Rows at a time: of whole blocks of EXR's, some megabytes.
 int band_rows(const OIIO::ImageSpec& spec)
@@ -52,20 +23,30 @@ int band_rows(const OIIO::ImageSpec& spec)
     return std::max(int(kValues / row) / kBlock, 1) * kBlock;
 }
 
-Status pass_result(const Recipe& recipe, const ImageSink& sink)
+Expected<std::unique_ptr<ComputedImage>> open_image(const Recipe& recipe, const MemoryImage* memory)
 {
     // Never destroyed: other threads may still read while statics end.
     static KeptResults& kept = *new KeptResults;
-    auto source = open_recipe_source(recipe, {});
+    auto source = open_recipe_source(recipe, {}, memory);
     if (!source)
         return source.error();
+    if (memory && recipe.gain_map == GainMapUse::apply)
+        return Error{ (*source)->name() + ": gainmap=apply reads a gain map from the photo's file; this has none" };
     if (const Status complete = check_complete(recipe, (*source)->name()); !complete)
         return complete.error();
-    const auto result = open_computed_image(recipe, std::move(*source), {}, kept);
+    OIIO::ImageSpec hints;
+    if (recipe.straight_alpha)
+        hints.attribute("oiio:UnassociatedAlpha", 1);
+    return open_computed_image(recipe, std::move(*source), hints, kept);
+}
+
+Status pass_result(Recipe recipe, const MemoryImage* memory, const ImageSink& sink)
+{
+    recipe.cancelled = sink.cancelled;
+    const auto result = open_image(recipe, memory);
     if (!result)
         return result.error();
-    constexpr int kAllThreads = 0;
-    const auto found = (*result)->full_spec(0, 0, kAllThreads);
+    const auto found = (*result)->full_spec(0, 0, recipe.threads);
     if (!found)
         return found.error();
     const OIIO::ImageSpec spec = **found;
@@ -75,8 +56,10 @@ Status pass_result(const Recipe& recipe, const ImageSink& sink)
     const int step = band_rows(spec);
     std::vector<float> rows(row * std::size_t(std::min(step, spec.height)));
     for (int y = 0; y < spec.height; y += step) {
+        if (sink.cancelled && sink.cancelled())
+            return Error{ "cancelled" };
         const int end = std::min(y + step, spec.height);
-        if (const Status read = (*result)->read(0, 0, kAllThreads, 0, spec.width, y, end, rows.data(), row); !read)
+        if (const Status read = (*result)->read(0, 0, recipe.threads, 0, spec.width, y, end, rows.data(), row); !read)
             return read;
         if (const Status taken = sink.rows(rows.data(), end - y); !taken)
             return taken;
@@ -84,7 +67,8 @@ Status pass_result(const Recipe& recipe, const ImageSink& sink)
     return {};
 }
 
-Expected<Image> result_of(const Recipe& recipe)
+/// A whole image of what `pass` gives to a sink.
+template<class Pass> Expected<Image> image_of(const Pass& pass)
 {
     OIIO::ImageSpec spec;
     std::vector<float> pixels;
@@ -99,98 +83,89 @@ Expected<Image> result_of(const Recipe& recipe)
                       rows + std::size_t(count) * std::size_t(spec.width) * std::size_t(spec.nchannels));
         return {};
     };
-    const Status passed = pass_result(recipe, sink);
+    const Status passed = pass(sink);
     return passed ? Expected<Image>(Image(std::move(spec), std::move(pixels))) : passed.error();
 }
 
-Recipe unprocess_recipe(const std::string& photo_path, const std::string& reference_path, const Options& options)
+Recipe recipe_of(const ImageInput& input, const Options& options)
 {
     Recipe recipe;
     static_cast<Options&>(recipe) = options;
-    recipe.source = photo_path;
-    if (!reference_path.empty())
-        recipe.references = { reference_path };
+    (input.memory() ? recipe.name : recipe.source) = input.name();
     return recipe;
 }
 
 } // namespace
 
-Status Image::save(const std::string& path, OIIO::TypeDesc type) const
-{
-    return guarded("image", path, [&]() -> Status {
-        auto output = OIIO::ImageOutput::create(path);
-        if (!output)
-            return write_error(path, OIIO::geterror());
-        NamedOutput file(path);
-        Status written = file.created();
-        if (written && output->supports("ioproxy")) {
-            // OpenEXR's writer says nothing of a disk that gets full while it closes a file.
-            const auto bytes = encode(path, type);
-            if (!bytes)
-                return bytes.error();
-            written = store(file.name(), *bytes);
-        } else if (written) {
-            written = write_file(*output, file.name(), file_spec(*output, m_spec, type), m_pixels.data());
-        }
-        output.reset();
-        if (written)
-            written = file.finish();
-        return written ? written : Status(write_error(path, written.error().message));
-    });
-}
-
-Expected<std::vector<unsigned char>> Image::encode(const std::string& name, OIIO::TypeDesc type,
-                                                   const std::string& compression) const
-{
-    return guarded("image", name, [&]() -> Expected<std::vector<unsigned char>> {
-        auto encoder = FileEncoder::create(name);
-        if (!encoder)
-            return write_error(name, encoder.error().message);
-        Status written = encoder->begin(m_spec, type, compression);
-        if (written)
-            written = encoder->add_rows(m_pixels.data(), m_spec.height);
-        auto bytes = written ? encoder->finish() : Expected<std::vector<unsigned char>>(written.error());
-        if (!bytes)
-            return write_error(name, bytes.error().message);
-        return bytes;
-    });
-}
-
-Expected<Image> unprocess(const std::string& photo_path, const std::string& reference_path, const Options& options)
-{
-    return guarded("photo", photo_path,
-                   [&] { return result_of(unprocess_recipe(photo_path, reference_path, options)); });
-}
-
-Status unprocess(const std::string& photo_path, const std::string& reference_path, const Options& options,
+Status unprocess(const ImageInput& photo, const ReferenceInput& reference, const Options& options,
                  const ImageSink& sink)
 {
-    return guarded("photo", photo_path,
-                   [&] { return pass_result(unprocess_recipe(photo_path, reference_path, options), sink); });
-}
-
-Expected<Image> process(const std::string& raw_path, const Options& options)
-{
-    return guarded("image", raw_path, [&] {
-        Recipe recipe;
-        static_cast<Options&>(recipe) = options;
-        recipe.source = raw_path;
-        recipe.direction = Direction::forward;
-        return result_of(recipe);
+    return guarded("photo", photo.name(), [&] {
+        Recipe recipe = recipe_of(photo, options);
+        recipe.reference = reference.loaded;
+        if (!reference.path.empty())
+            recipe.references = { reference.path };
+        return pass_result(recipe, photo.memory(), sink);
     });
 }
 
-Expected<Image> develop(const std::string& raw_path, const Options& options)
+Status process(const ImageInput& raw, const Options& options, const ImageSink& sink)
 {
-    return guarded("image", raw_path, [&] {
-        Recipe recipe;
-        static_cast<Options&>(recipe) = options;
-        recipe.source = raw_path;
+    return guarded("image", raw.name(), [&] {
+        Recipe recipe = recipe_of(raw, options);
+        recipe.direction = Direction::forward;
+        return pass_result(recipe, raw.memory(), sink);
+    });
+}
+
+Status develop(const ImageInput& raw, const Options& options, const ImageSink& sink)
+{
+    return guarded("image", raw.name(), [&] {
+        Recipe recipe = recipe_of(raw, options);
         recipe.action = Recipe::Action::develop;
         if (recipe.develop.empty())
             recipe.develop = "ACEScg";
-        return result_of(recipe);
+        return pass_result(recipe, raw.memory(), sink);
     });
+}
+
+Status sense(const ImageInput& raw, const Options& options, const ImageSink& sink)
+{
+    return guarded("image", raw.name(), [&] {
+        Recipe recipe = recipe_of(raw, options);
+        recipe.action = Recipe::Action::sensor;
+        return pass_result(recipe, raw.memory(), sink);
+    });
+}
+
+Status read_photo(const ImageInput& photo, const Options& options, const ImageSink& sink)
+{
+    return guarded("photo", photo.name(), [&]() -> Status {
+        const Recipe recipe = recipe_of(photo, options);
+        const auto source = open_recipe_source(recipe, {}, photo.memory());
+        return source ? pass_photo(**source, options, sink) : Status(source.error());
+    });
+}
+
+Expected<Image> unprocess(const ImageInput& photo, const ReferenceInput& reference, const Options& options)
+{
+    return image_of([&](const ImageSink& sink) { return unprocess(photo, reference, options, sink); });
+}
+Expected<Image> process(const ImageInput& raw, const Options& options)
+{
+    return image_of([&](const ImageSink& sink) { return process(raw, options, sink); });
+}
+Expected<Image> develop(const ImageInput& raw, const Options& options)
+{
+    return image_of([&](const ImageSink& sink) { return develop(raw, options, sink); });
+}
+Expected<Image> sense(const ImageInput& raw, const Options& options)
+{
+    return image_of([&](const ImageSink& sink) { return sense(raw, options, sink); });
+}
+Expected<Image> read_photo(const ImageInput& photo, const Options& options)
+{
+    return image_of([&](const ImageSink& sink) { return read_photo(photo, options, sink); });
 }
 
 } // namespace srisp

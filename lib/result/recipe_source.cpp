@@ -30,13 +30,17 @@ bool is_camera_file(const std::string& path)
 
 } // namespace
 
-Expected<std::unique_ptr<PixelSource>> open_recipe_source(const Recipe& recipe, const OIIO::ImageSpec& config)
+Expected<std::unique_ptr<PixelSource>> open_recipe_source(const Recipe& recipe, const OIIO::ImageSpec& config,
+                                                          const MemoryImage* memory)
 {
-    const bool photo = recipe.direction == Direction::reverse && recipe.action != Recipe::Action::develop;
+    const bool photo = recipe.direction == Direction::reverse &&
+                       (recipe.action == Recipe::Action::apply || recipe.action == Recipe::Action::print);
+    const std::string kind = photo ? "photo" : "image";
     const OIIO::ImageSpec hints = reading_hints(recipe, config);
-    const bool camera = recipe.action == Recipe::Action::develop && is_camera_file(recipe.source);
-    auto source = camera ? open_camera_file(recipe.source, hints, recipe.isolate)
-                         : open_file_source(recipe.source, photo ? "photo" : "image", hints);
+    const bool camera = !memory && recipe.action == Recipe::Action::develop && is_camera_file(recipe.source);
+    auto source = memory   ? open_memory_source(*memory, kind)
+                  : camera ? open_camera_file(recipe.source, hints, recipe.isolate)
+                           : open_file_source(recipe.source, kind, hints);
     const bool whole = recipe.resize.empty() && recipe.crop.empty();
     return whole || !source ? std::move(source) : resized_source(std::move(*source), recipe);
 }

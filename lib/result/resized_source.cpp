@@ -2,7 +2,6 @@
 #include "result/resized_source.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -87,9 +86,8 @@ Expected<std::unique_ptr<PixelSource>> resized_source(std::unique_ptr<PixelSourc
         pixels = std::move(values);
     }
     if (!recipe.crop.empty()) {
-        const std::string file = std::filesystem::path(recipe.source).filename().string();
         const PhotoSize size = upright(layout.width, layout.height);
-        const auto part = cropped(recipe.crop, size, seeded_hash(recipe.seed, file));
+        const auto part = cropped(recipe.crop, size, seeded_hash(recipe.seed, recipe.photo_name()));
         if (!part)
             return Error{ photo->name() + ": " + part.error().message };
         const OIIO::ImageBuf whole(layout, pixels.data());

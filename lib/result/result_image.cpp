@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "result/result_image.h"
 
-#include <filesystem>
-
 #include <OpenImageIO/strutil.h>
 #include <srisp/metadata.h>
 
@@ -23,8 +21,7 @@ InputEncoding encoding_of(const Recipe& recipe)
 Expected<std::unique_ptr<ResultImage>> ResultImage::open(const Recipe& recipe, std::unique_ptr<PixelSource> source,
                                                          const OIIO::ImageSpec& config, KeptResults& kept)
 {
-    const std::string photo = recipe.source.empty() ? recipe.name : recipe.source;
-    auto chooser = Chooser::create(recipe, std::filesystem::path(photo).filename().string(), kept);
+    auto chooser = Chooser::create(recipe, kept);
     if (!chooser)
         return chooser.error();
     const bool associate = config.get_int_attribute("oiio:UnassociatedAlpha") == 0;
@@ -166,7 +163,7 @@ Expected<std::shared_ptr<BandReader>> ResultImage::band_reader(int subimage, int
         drop_idle_readers();
         (*found)->bands = std::make_shared<BandReader>(
             *m_source, subimage, miplevel, (*found)->stored,
-            BandSettings{ (*found)->converter, applier, m_associate, m_recipe.progress, threads });
+            BandSettings{ (*found)->converter, applier, m_associate, m_recipe.progress, threads, m_recipe.cancelled });
     }
     return (*found)->bands;
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include <OpenImageIO/strutil.h>
 
@@ -87,9 +86,7 @@ Expected<std::unique_ptr<SensorImage>> SensorImage::open(const Recipe& recipe, c
 
 SensorImage::SensorImage(const Recipe& recipe, const std::string& name, std::unique_ptr<ComputedImage> image,
                          KeptResults& kept)
-    : m_recipe(recipe), m_name(name),
-      m_photo(std::filesystem::path(recipe.source.empty() ? recipe.name : recipe.source).filename().string()),
-      m_image(std::move(image)), m_kept(kept)
+    : m_recipe(recipe), m_name(name), m_photo(recipe.photo_name()), m_image(std::move(image)), m_kept(kept)
 {
 }
 

@@ -47,7 +47,9 @@ Status squash(PhotoFile& photo, std::vector<Squashing>& crops)
 Expected<PackedScene> pack_photo(const std::string& path, const std::string& name, const Provenance& provenance,
                                  const CropSettings& settings)
 {
-    Expected<PhotoFile> photo = PhotoFile::open(path);
+    Options options;
+    options.threads = 1; // the others have photos of their own
+    Expected<PhotoFile> photo = PhotoFile::open(path, options);
     if (!photo)
         return photo.error();
     const int width = photo->width(), height = photo->height(), orientation = photo->orientation();

@@ -86,10 +86,12 @@ struct Options {
     InputEncoding input = InputEncoding::automatic;
     Precision precision = Precision::float32;
     GainMapUse gain_map = GainMapUse::ignore;
-    bool allow_partial = false; ///< a photo that breaks off is taken as far as it goes, with a note
-    bool isolate = true;        ///< RAW files are decoded by a program of their own (load_reference)
-    std::uint64_t seed = 0;     ///< with the photo's name it says which of several references is taken, and which
-                                ///< brightness
+    bool allow_partial = false;  ///< a photo that breaks off is taken as far as it goes, with a note
+    bool straight_alpha = false; ///< colour of results is not multiplied with alpha (`oiio:UnassociatedAlpha`)
+    bool isolate = true;         ///< RAW files are decoded by a program of their own (load_reference)
+    int threads = 0;             ///< 0: all of OpenImageIO's threads; 1: the calling thread only
+    std::uint64_t seed = 0;      ///< with the photo's name it says which of several references is taken, and which
+                                 ///< brightness
     std::optional<Brightness> brightness; ///< of reverse results only
 
     /// The size that the photo gets before anything else is done with it: `N` pixels for its shorter side, `WxH`, `Wx0`

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include <srisp/expected.h>
 #include <srisp/export.h>
 #include <srisp/image.h>
+#include <srisp/image_input.h>
 #include <srisp/metadata.h>
 #include <srisp/metrics.h>
 #include <srisp/model.h>
@@ -64,27 +66,50 @@ private:
 struct ImageSink {
     std::function<Status(const OIIO::ImageSpec& spec)> begin;
     std::function<Status(const float* rows, int count)> rows;
+    std::function<bool()> cancelled{}; ///< asked now and then by the calling thread; true ends it with an error
+};
+
+/// A reference to select by: a path that load_reference takes, or a folder or glob, of which one file is taken by
+/// `Options::seed`; or one that is loaded. Empty where `Options::parameters` are given.
+struct ReferenceInput {
+    ReferenceInput(const char* reference_path) : path(reference_path) {}
+    ReferenceInput(std::string reference_path) : path(std::move(reference_path)) {}
+    ReferenceInput(std::shared_ptr<const Reference> reference) : loaded(std::move(reference)) {}
+
+    std::string path;
+    std::shared_ptr<const Reference> loaded;
 };
 
 /// What the camera of the reference would have recorded of the photo's scene, in the reference's light: linear camera
-/// RGB in [0,1]. Photo: any image that OpenImageIO reads (its first subimage); alpha and further channels are kept.
-/// Reference: what load_reference reads, or a folder or glob, of which one file is taken by `options.seed`; may be
-/// empty where `options.parameters` are given. Errors: missing or damaged files, a model that is not there, an image
-/// that is RAW-like already.
-SRISP_API Expected<Image> unprocess(const std::string& photo_path, const std::string& reference_path,
+/// RGB in [0,1]. Photo: any image that OpenImageIO reads (its first subimage), or one in memory; alpha and further
+/// channels are kept. Errors: missing or damaged files, a model that is not there, an image that is RAW-like already.
+SRISP_API Expected<Image> unprocess(const ImageInput& photo, const ReferenceInput& reference,
                                     const Options& options = {});
 
-/// The same for images that need not be in memory as a whole.
-SRISP_API Status unprocess(const std::string& photo_path, const std::string& reference_path, const Options& options,
-                           const ImageSink& sink);
+/// A RAW-like image, or one that was developed → a display-encoded photo, by the parameters that the image records or
+/// `options` give.
+SRISP_API Expected<Image> process(const ImageInput& raw, const Options& options = {});
 
 /// A RAW-like image of ours, or a camera's RAW file (LibRaw demosaics it) → scene-linear colour, in the space that
 /// `options.develop` names, else ACEScg. unprocess() with options.develop does both at once. Errors: as there, and
 /// those of choose_development.
-SRISP_API Expected<Image> develop(const std::string& raw_path, const Options& options = {});
+SRISP_API Expected<Image> develop(const ImageInput& raw, const Options& options = {});
 
-/// A RAW-like image, or one that was developed → a display-encoded photo, by the parameters that the image records or
-/// `options` give.
-SRISP_API Expected<Image> process(const std::string& raw_path, const Options& options = {});
+/// A RAW-like image as a sensor gives it: its `options.mosaic`, with `options.noise`, or one of both. unprocess() with
+/// these options does all at once. Errors: neither of them asked for, a picture that is no RAW-like image, a mosaic of
+/// a mosaic, figures of noise that cannot be had.
+SRISP_API Expected<Image> sense(const ImageInput& raw, const Options& options);
+
+/// A photo as the model sees it: display-encoded sRGB in [0,1], whatever colours the file has; colour straight, alpha
+/// and further channels behind it; as stored (`Orientation` says how it is turned).
+SRISP_API Expected<Image> read_photo(const ImageInput& photo, const Options& options = {});
+
+/// The same for images that need not be in memory as a whole.
+SRISP_API Status unprocess(const ImageInput& photo, const ReferenceInput& reference, const Options& options,
+                           const ImageSink& sink);
+SRISP_API Status process(const ImageInput& raw, const Options& options, const ImageSink& sink);
+SRISP_API Status develop(const ImageInput& raw, const Options& options, const ImageSink& sink);
+SRISP_API Status sense(const ImageInput& raw, const Options& options, const ImageSink& sink);
+SRISP_API Status read_photo(const ImageInput& photo, const Options& options, const ImageSink& sink);
 
 } // namespace srisp
