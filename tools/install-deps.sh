@@ -10,11 +10,12 @@ packages="
     cmake g++ ninja-build pkg-config
     doctest-dev libcli11-dev libhwy-dev libimath-dev liblcms2-dev libopencolorio-dev libopenexr-dev libopenimageio-dev
     libheif-dev libjpeg-dev libpugixml-dev libraw-dev libtiff-dev libwebp-dev
-    libxxhash-dev nlohmann-json3-dev zlib1g-dev
+    libxxhash-dev nlohmann-json3-dev pybind11-dev python3-dev zlib1g-dev
     openimageio-tools python3-openimageio python3-numpy fonts-dejavu-core
 "
 test_packages="clang-format-14 darktable dcraw libgl1-mesa-dri libimage-exiftool-perl libraw-bin libheif-examples make man-db mount
-    munge opencolorio-tools parallel python3-distributed python3-pil python3-torch python3-pyopencolorio rawtherapee slurm-wlm xauth xvfb"
+    munge mypy opencolorio-tools parallel python3-distributed python3-matplotlib python3-pil python3-pip python3-pytest python3-setuptools
+    python3-torch python3-venv python3-wheel python3-pyopencolorio rawtherapee slurm-wlm xauth xvfb"
 trainer_packages="libgloo-dev libopenblas0-openmp libtorch-dev"
 case "$#${1:-}" in
     0) packages="$packages $trainer_packages $test_packages" ;;

@@ -3,7 +3,8 @@
 include(CMakePackageConfigHelpers)
 set(_srisp_package ${CMAKE_INSTALL_LIBDIR}/cmake/srisp)
 
-install(TARGETS srisp EXPORT srisp_targets DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS srisp EXPORT srisp_targets
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT python NAMELINK_COMPONENT development)
 install(DIRECTORY include/srisp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT srisp_targets FILE srisp-targets.cmake NAMESPACE srisp:: DESTINATION ${_srisp_package})
 

@@ -79,7 +79,7 @@ template<class Run> py::tuple computed(const Run& run)
     sink.cancelled = [&] { return interruption.pending(); };
     Status done;
     {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         done = run(sink);
     }
     interruption.rethrow();
@@ -118,7 +118,7 @@ void write(const py::bytes& file, const py::array& array, const Metadata& metada
     const OIIO::TypeDesc stored = type.empty() ? OIIO::TypeUnknown : OIIO::TypeDesc(type);
     Status saved;
     {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         saved = Image(image.spec, std::vector<float>(values, values + array.size())).save(path, stored);
     }
     require(saved);

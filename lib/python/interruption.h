@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-#include "bindings.h"
+#include "unlocked.h"
 
 // Ctrl-C while the library works without the interpreter's lock.
 
@@ -42,16 +42,19 @@ private:
     std::exception_ptr m_raised;
 };
 
-/// The result of `work`, which cannot be stopped: on a thread of its own, which is left alone when a signal comes. So
+/// The result of `job`, which cannot be stopped: on a thread of its own, which is left alone when a signal comes. So
 /// it owns all that it uses. To be called with the lock.
-template<class Work> auto wait_for(Work work) -> decltype(work())
+template<class Job> auto wait_for(Job job) -> decltype(job())
 {
-    std::packaged_task<decltype(work())()> task(std::move(work));
+    std::packaged_task<decltype(job())()> task(std::move(job));
     auto result = task.get_future();
     Interruption interruption;
     {
         const py::gil_scoped_release unlocked;
-        std::thread(std::move(task)).detach();
+        std::thread([task = std::move(task)]() mutable {
+            const Unlocked::Work work;
+            task();
+        }).detach();
         while (result.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready && !interruption.pending())
             continue;
     }

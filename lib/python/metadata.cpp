@@ -3,6 +3,7 @@
 
 #include <pybind11/stl.h>
 #include <srisp/metadata.h>
+#include <srisp/mosaic.h>
 #include <srisp/reference.h>
 
 #include "bindings.h"
@@ -12,7 +13,6 @@ namespace srisp::python {
 
 namespace {
 
-constexpr char kCfaPattern[] = "unprocess:cfa_pattern";
 constexpr char kNoiseProfile[] = "unprocess:noise_profile";
 constexpr char kNotes[] = "unprocess:notes";
 
@@ -98,27 +98,35 @@ Metadata from_state(const py::tuple& state)
             spec.attribute(name, type, bytes.data());
     }
     spec.channelnames = state[1].cast<std::vector<std::string>>();
+    spec.nchannels = int(spec.channelnames.size());
     spec.alpha_channel = state[2].cast<int>();
     spec.z_channel = state[3].cast<int>();
+    return metadata;
+}
+
+/// Of a mosaic.
+Metadata with_cfa_pattern(const Metadata& before, const std::string& pattern)
+{
+    if (!pattern.empty())
+        static_cast<void>(value_of(parse_bayer_phase(pattern)));
+    Metadata metadata = before;
+    metadata.spec.nchannels = 1;
+    metadata.spec.channelnames = { "Y" };
+    record_cfa_pattern(metadata.spec, pattern);
     return metadata;
 }
 
 /// As `record_result` says it, with what is known of filters and noise kept.
 Metadata recorded(const Metadata& before, const std::optional<Parameters>& parameters, const LoadedReference* reference)
 {
-    Metadata metadata = before;
-    const std::string pattern = before.spec.get_string_attribute(kCfaPattern);
-    const OIIO::ParamValue* const noise = before.spec.find_attribute(kNoiseProfile);
     const auto known = parameters ? *parameters : recorded_parameters(before.spec, "image");
     const CameraFacts* const camera = reference ? &reference->get().facts : nullptr;
-    if (known)
-        record_result(metadata.spec, *known, camera, Direction::reverse);
-    else if (camera)
-        record_result(metadata.spec, {}, camera, Direction::reverse);
-    if (!pattern.empty())
-        metadata.spec.attribute(kCfaPattern, pattern);
-    if (noise)
+    Metadata metadata = before;
+    record_result(metadata.spec, known ? *known : Parameters(), camera, Direction::reverse);
+    if (const OIIO::ParamValue* const noise = before.spec.find_attribute(kNoiseProfile))
         metadata.spec.attribute(kNoiseProfile, noise->type(), noise->data());
+    if (const std::string pattern = recorded_cfa_pattern(before.spec); !pattern.empty())
+        record_cfa_pattern(metadata.spec, pattern);
     return metadata;
 }
 
@@ -158,6 +166,9 @@ dict(metadata.items()) shows all of it; OpenImageIO's names are used.)")
              [](const Metadata& m, const std::string& name) { return m.spec.find_attribute(name) != nullptr; })
         .def("__len__", [](const Metadata& m) { return m.spec.extra_attribs.size(); })
         .def("copy", [](const Metadata& m) { return Metadata(m); })
+        .def_property_readonly("cfa_pattern", [](const Metadata& m) { return recorded_cfa_pattern(m.spec); })
+        .def("with_cfa_pattern", &with_cfa_pattern, py::arg("pattern"),
+             "A copy that is of a mosaic with these filters.")
         .def("recorded", &recorded, py::arg("parameters") = py::none(), py::arg("reference") = py::none(),
              "A copy that says so of parameters and reference camera, as unprocess() does.")
         .def_property_readonly("parameters",

@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "arrays.h"
+#include "unlocked.h"
 
 namespace srisp::python {
 
@@ -22,7 +23,7 @@ std::pair<ImageView, ImageView> pair_of(const py::array& result, const py::array
 template<class Measure> auto measured(const py::array& result, const py::array& truth, Measure measure)
 {
     const auto [a, b] = pair_of(result, truth);
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     return measure(a, b);
 }
 
@@ -44,7 +45,7 @@ void bind_metrics(py::module_& module)
         std::array<float, 9> matrix;
         for (std::size_t i = 0; i < 9; ++i)
             matrix[i] = camera_to_xyz[i / 3][i % 3];
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         LabHistogram a, b;
         a.add(views.first, matrix);
         b.add(views.second, matrix);

@@ -3,6 +3,7 @@
 #include <srisp/model.h>
 
 #include "bindings.h"
+#include "unlocked.h"
 
 namespace srisp::python {
 
@@ -10,7 +11,7 @@ void bind_model(py::module_& module)
 {
     // The library's models never change; pybind11 knows no pointers to what is const.
     const auto load = [](const std::string& name) {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         return Model::load(name);
     };
     py::class_<Model, std::shared_ptr<Model>>(module, "Model", R"(A trained model, checked in full when it is loaded.

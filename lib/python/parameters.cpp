@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <srisp/model.h>
@@ -125,6 +127,8 @@ win as they stand; their weights are a record only. The tone curve is mixed from
         .def(
             "brightened",
             [](const P& p, double ev) {
+                if (!(std::abs(ev) <= kLargestBrightnessEv))
+                    throw py::value_error("ev is " + number(ev) + ": -20 to 20 is possible");
                 P changed = p;
                 require(choose_brightness(changed, { ev, false }, 0, ""));
                 return changed;

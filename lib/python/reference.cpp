@@ -121,8 +121,11 @@ void bind_noise(py::module_& module)
             py::arg("make") = "",
             "From darktable's profiles, by the camera's name, interpolated between two ISOs. Raises srisp.Error "
             "for a camera or an ISO that is not there.")
-        .def_property_readonly("shot", [](const N& n) { return py::tuple(py::cast(n.shot)); })
-        .def_property_readonly("read", [](const N& n) { return py::tuple(py::cast(n.read)); })
+        .def_property_readonly(
+            "shot", [](const N& n) { return py::tuple(py::cast(n.shot)); },
+            "Of R, G, B: how much of the value is variance.")
+        .def_property_readonly(
+            "read", [](const N& n) { return py::tuple(py::cast(n.read)); }, "Of R, G, B: the variance of black.")
         .def(
             "__eq__", [](const N& a, const N& b) { return a.shot == b.shot && a.read == b.read; }, py::is_operator())
         .def(py::pickle([](const N& n) { return py::make_tuple(n.shot, n.read); },
@@ -174,7 +177,8 @@ pickled it travels as its path and is loaded again.)")
              py::arg("path"), py::arg("isolate") = true)
         .def_property_readonly(
             "name", [](const R& r) { return path_text(r.get().name); }, "Base name of the file.")
-        .def_property_readonly("path", [](const R& r) { return path_text(r.get().path); })
+        .def_property_readonly(
+            "path", [](const R& r) { return path_text(r.get().path); }, "As it was given.")
         .def_property_readonly(
             "hash", [](const R& r) { return r.get().hash; }, "'xxh128:' and 32 hex digits, of the file's bytes.")
         .def_property_readonly(

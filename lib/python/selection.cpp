@@ -31,7 +31,7 @@ py::array photo_thumbnail(const py::object& image, const Metadata& metadata, con
     Interruption interruption;
     Expected<Thumbnail> thumbnail = Error{};
     {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         thumbnail = load_photo_thumbnail(input, options, [&] { return interruption.pending(); });
     }
     interruption.rethrow();
@@ -59,7 +59,7 @@ py::tuple select_parameters(const Model& model, const py::array& photo, const py
     std::vector<std::string> notes;
     Expected<Parameters> parameters = Error{};
     {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         parameters = select(model, source, shown, &notes);
     }
     Parameters chosen = value_of(std::move(parameters));
@@ -70,35 +70,39 @@ py::tuple select_parameters(const Model& model, const py::array& photo, const py
     return py::make_tuple(chosen, notes);
 }
 
-int halo_of(const Model& model, const Parameters& parameters, bool forward, bool fast)
-{
-    const auto applier = Applier::create(model, parameters, forward ? Direction::forward : Direction::reverse,
-                                         fast ? Precision::fast : Precision::float32);
-    return value_of(applier)->halo();
-}
-
-/// `part`: of the image the pixels from (x, y) on; `region`: x0, x1, y0, y1 of what `out` gets.
-void apply_parameters(const Model& model, const Parameters& parameters, bool forward, bool fast, const py::array& part,
-                      int x, int y, int full_width, int full_height, const std::array<int, 4>& region, py::array& out,
-                      int threads)
-{
-    const ImagePart source{ view_of(part, "image"), x, y, full_width, full_height };
-    const MutableImageView target = mutable_view_of(out, "out");
-    Interruption interruption;
-    ApplyOptions options;
-    options.threads = threads;
-    options.progress = [&](float) { return !interruption.pending(); };
-    Status done;
+/// The library's never change; pybind11 knows no pointers to what is const.
+class PreparedApplier {
+public:
+    PreparedApplier(const Model& model, const Parameters& parameters, bool forward, bool fast)
+        : m_applier(value_of(Applier::create(model, parameters, forward ? Direction::forward : Direction::reverse,
+                                             fast ? Precision::fast : Precision::float32)))
     {
-        const py::gil_scoped_release unlocked;
-        const auto applier = Applier::create(model, parameters, forward ? Direction::forward : Direction::reverse,
-                                             fast ? Precision::fast : Precision::float32);
-        done = applier ? (*applier)->run(source, { region[0], region[1], region[2], region[3] }, target, options)
-                       : Status(applier.error());
     }
-    interruption.rethrow();
-    require(done);
-}
+
+    int halo() const { return m_applier->halo(); }
+
+    /// `part`: of the image the pixels from (x, y) on; `region`: x0, x1, y0, y1 of what `out` gets.
+    void run(const py::array& part, int x, int y, int full_width, int full_height, const std::array<int, 4>& region,
+             py::array& out, int threads) const
+    {
+        const ImagePart source{ view_of(part, "image"), x, y, full_width, full_height };
+        const MutableImageView target = mutable_view_of(out, "out");
+        Interruption interruption;
+        ApplyOptions options;
+        options.threads = threads;
+        options.progress = [&](float) { return !interruption.pending(); };
+        Status done;
+        {
+            const Unlocked unlocked;
+            done = m_applier->run(source, { region[0], region[1], region[2], region[3] }, target, options);
+        }
+        interruption.rethrow();
+        require(done);
+    }
+
+private:
+    std::shared_ptr<const Applier> m_applier;
+};
 
 /// The floats that OpenImageIO makes of any values, which are those that a file of them gives.
 py::array floats_of(const py::array& array)
@@ -109,7 +113,7 @@ py::array floats_of(const py::array& array)
     py::array_t<float> floats(shape);
     auto* const to = reinterpret_cast<unsigned char*>(floats.mutable_data());
     const py::ssize_t value = sizeof(float), pixel = value * spec.nchannels;
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     for (int c = 0; c < spec.nchannels; ++c)
         OIIO::convert_image(1, spec.width, spec.height, 1,
                             static_cast<const unsigned char*>(image.pixels) + c * image.channel_stride, spec.format,
@@ -124,8 +128,10 @@ void bind_selection(py::module_& module)
 {
     module.def("photo_thumbnail", &photo_thumbnail);
     module.def("select", &select_parameters);
-    module.def("halo", &halo_of);
-    module.def("apply", &apply_parameters);
+    py::class_<PreparedApplier>(module, "Applier")
+        .def(py::init<const Model&, const Parameters&, bool, bool>())
+        .def_property_readonly("halo", &PreparedApplier::halo)
+        .def("run", &PreparedApplier::run);
     module.def("floats", &floats_of);
 }
 

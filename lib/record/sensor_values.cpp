@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <OpenImageIO/strutil.h>
+#include <srisp/metadata.h>
 
 #include "base/json_text.h"
 #include "record/record.h"
@@ -129,6 +130,18 @@ SensorValues recorded_sensor_values(const OIIO::ImageSpec& spec)
     SensorValues of_colors;
     of_colors.noise_profile = values.noise_profile;
     return of_colors;
+}
+
+std::string recorded_cfa_pattern(const OIIO::ImageSpec& spec)
+{
+    return recorded_sensor_values(spec).cfa_pattern;
+}
+
+void record_cfa_pattern(OIIO::ImageSpec& spec, const std::string& pattern)
+{
+    SensorValues values = recorded_sensor_values(spec);
+    values.cfa_pattern = pattern;
+    record_sensor_values(spec, values);
 }
 
 } // namespace srisp

@@ -33,6 +33,12 @@ SRISP_API void record_result(OIIO::ImageSpec& spec, const Parameters& parameters
 /// image's name in messages.
 SRISP_API Expected<Parameters> recorded_parameters(const OIIO::ImageSpec& spec, const std::string& where);
 
+/// Which filters lie over pixel (0, 0) of a mosaic, its right neighbour and the two below: "RGGB", …; empty: the image
+/// is no mosaic, or does not say. The second function says so of an image of one channel; empty: it says nothing any
+/// more.
+SRISP_API std::string recorded_cfa_pattern(const OIIO::ImageSpec& spec);
+SRISP_API void record_cfa_pattern(OIIO::ImageSpec& spec, const std::string& pattern);
+
 /// Whether the image says that srisp made it by `Direction::reverse`.
 SRISP_API bool is_unprocessed(const OIIO::ImageSpec& spec);
 

@@ -35,9 +35,10 @@ _places = {
     "_image": ("Image",),
 }
 
-__all__ = ["CameraFacts", "Error", "Image", "Metadata", "Model", "NoiseModel", "Parameters", "Reference", "__version__",
-           "add_noise", "angular_error", "apply", "develop", "highlight_errors", "lab_intersection", "mosaic", "process",
-           "psnr", "read_photo", "select", "thumbnail", "unprocess", "write_dng"]
+# Image is none of them: `help(srisp)` would list all of numpy.ndarray.
+__all__ = ["CameraFacts", "Error", "Metadata", "Model", "NoiseModel", "Parameters", "Reference", "__version__", "add_noise",
+           "angular_error", "apply", "develop", "highlight_errors", "lab_intersection", "mosaic", "process", "psnr",
+           "read_photo", "select", "thumbnail", "unprocess", "write_dng"]
 
 
 def __getattr__(name: str) -> object:
@@ -52,4 +53,4 @@ def __getattr__(name: str) -> object:
 
 
 def __dir__() -> "list[str]":
-    return sorted([*__all__, "torch"])
+    return sorted([*__all__, "Image", "torch"])

@@ -5,6 +5,7 @@ import os
 from typing import Any, Dict, Optional, Sequence, Tuple, Union
 
 import numpy
+from numpy.typing import NDArray
 
 from . import _core
 from ._image import Image
@@ -12,7 +13,6 @@ from ._inputs import Input, image_input, photo_input, reference_input
 
 _Path = Union[str, "os.PathLike[str]"]
 _WhiteBalance = Union[str, float, Sequence[float]]
-_CFA_PATTERN = "unprocess:cfa_pattern"
 
 
 def unprocess(image: Any, reference: Union[_core.Reference, _Path, None] = None, *,
@@ -127,16 +127,13 @@ def write_dng(path: _Path, image: Any, reference: Optional[_core.Reference] = No
     if not name.lower().endswith(b".dng"):
         raise ValueError(f"path '{os.fsdecode(name)}' does not end in .dng")
     source = _known(image_input(image), parameters, reference)
-    if not isinstance(source.image, numpy.ndarray):
-        raise TypeError("image is a path: an array is needed")
-    if source.image.ndim == 2:
-        source = _with_pattern(source, cfa_pattern)
-    metadata = source.metadata.copy()
+    array = _array(source)
+    metadata = (_with_pattern(source, cfa_pattern) if array.ndim == 2 else source).metadata.copy()
     for key, value in (("dng:layout", layout), ("dng:datatype", datatype), ("compression", compression)):
         metadata[key] = value
     metadata["dng:bits"] = bits if datatype == "uint16" else None
     metadata["dng:quiet"] = "1"
-    _core.write(name, _float32(source.image), metadata, "float")
+    _core.write(name, numpy.ascontiguousarray(_float32(array)), metadata, "float")
 
 
 def select(photo: Any, reference: Union[_core.Reference, _Path, Any], model: Union[_core.Model, _Path] = "default", *,
@@ -157,7 +154,7 @@ def select(photo: Any, reference: Union[_core.Reference, _Path, Any], model: Uni
 
 def apply(image: Any, parameters: _core.Parameters, *, direction: str = "reverse",
           model: Union[_core.Model, _Path, None] = None, region: Optional[Tuple[int, int, int, int]] = None,
-          out: Optional[numpy.ndarray] = None, precision: str = "float32", threads: int = 0) -> numpy.ndarray:
+          out: Optional[NDArray[Any]] = None, precision: str = "float32", threads: int = 0) -> NDArray[Any]:
     """Parameters on an array, without a look at anything else: no colour profile, no alpha, no orientation.
 
     image: height x width x 3, display-encoded sRGB (direction "reverse": to RAW-like) or linear camera RGB ("forward").
@@ -170,31 +167,35 @@ def apply(image: Any, parameters: _core.Parameters, *, direction: str = "reverse
     Returns out, or a new array: float32, of 0 to 1; the same bits for any region and number of threads. Raises
     srisp.Error, TypeError, ValueError.
     """
-    loaded = model if isinstance(model, _core.Model) else _core.Model(model if model is not None else parameters.model_name)
+    if not isinstance(parameters, _core.Parameters):
+        raise TypeError(f"parameters is a {type(parameters).__name__}: srisp.Parameters is needed")
+    loaded = model if isinstance(model, _core.Model) else _core.Model(parameters.model_name if model is None else model)
     if direction not in ("reverse", "forward"):
         raise ValueError(f"direction is '{direction}': 'reverse' or 'forward' is needed")
     if precision not in ("float32", "fast"):
         raise ValueError(f"precision is '{precision}': 'float32' or 'fast' is needed")
-    source = image_input(image)
-    if not isinstance(source.image, numpy.ndarray):
-        raise TypeError("image is a path: an array is needed; read_photo() gives one")
-    if source.image.ndim != 3 or source.image.shape[2] != 3:
-        raise ValueError(f"image has shape {source.image.shape}: height x width x 3 is needed")
-    height, width = source.image.shape[:2]
+    array = _array(image_input(image))
+    if array.ndim != 3 or array.shape[2] != 3:
+        raise ValueError(f"image has shape {array.shape}: height x width x 3 is needed")
+    height, width = array.shape[:2]
     x0, y0, x1, y1 = (0, 0, width, height) if region is None else region
     if not (0 <= x0 < x1 <= width and 0 <= y0 < y1 <= height):
         raise ValueError(f"region {region} does not lie in the image of {width} x {height} pixels")
-    flags = (direction == "forward", precision == "fast")
-    halo = 0 if region is None else _core.halo(loaded, parameters, *flags)
-    left, top = max(x0 - halo, 0), max(y0 - halo, 0)
-    part = _float32(source.image[top:min(y1 + halo, height), left:min(x1 + halo, width)])
+    applier = _core.Applier(loaded, parameters, direction == "forward", precision == "fast")
     if out is None:
         out = numpy.empty((y1 - y0, x1 - x0, 3), numpy.float32)
-    _core.apply(loaded, parameters, *flags, part, left, top, width, height, (x0, x1, y0, y1), out, threads)
+    left, right = max(x0 - applier.halo, 0), min(x1 + applier.halo, width)
+    # Other values are converted piece by piece, some megabytes each.
+    step = y1 - y0 if _is_view(array) else max((1 << 20) // (right - left), 1)
+    for y in range(y0, y1, step):
+        end = min(y + step, y1)
+        top, bottom = max(y - applier.halo, 0), min(end + applier.halo, height)
+        part = _pixels(array[top:bottom, left:right])
+        applier.run(part, left, top, width, height, (x0, x1, y, end), out[y - y0:end - y0], threads)
     return out
 
 
-def thumbnail(image: Any, *, input: str = "auto", threads: int = 0) -> numpy.ndarray:
+def thumbnail(image: Any, *, input: str = "auto", threads: int = 0) -> NDArray[Any]:
     """What selection looks at: the whole image squashed to 256 x 256 x 3, float32, upright, by exact area averaging.
 
     image: as for unprocess(); of RAW-like images values are taken as they are. Raises srisp.Error, TypeError, ValueError.
@@ -254,7 +255,7 @@ def _model_path(model: Union[_core.Model, _Path, None]) -> Optional[str]:
     return model.path if isinstance(model, _core.Model) else None if model is None else os.fspath(model)
 
 
-def _image(pixels: numpy.ndarray, metadata: _core.Metadata) -> Image:
+def _image(pixels: NDArray[Any], metadata: _core.Metadata) -> Image:
     """Turned upright."""
     orientation = int(metadata.get("Orientation", 1))
     if orientation in range(2, 9):
@@ -276,23 +277,31 @@ def _known(source: Input, parameters: Optional[_core.Parameters], reference: Opt
 
 
 def _with_pattern(source: Input, cfa_pattern: str) -> Input:
-    if not cfa_pattern:
-        if _CFA_PATTERN not in source.metadata:
-            raise ValueError("cfa_pattern is needed: the mosaic does not know its own")
-        return source
-    metadata = source.metadata.copy()
-    metadata[_CFA_PATTERN] = cfa_pattern
-    return Input(source.image, metadata)
+    if cfa_pattern:
+        return Input(source.image, source.metadata.with_cfa_pattern(cfa_pattern))
+    if not source.metadata.cfa_pattern:
+        raise ValueError("cfa_pattern is needed: the mosaic does not know its own")
+    return source
 
 
-def _float32(array: numpy.ndarray) -> numpy.ndarray:
+def _array(source: Input) -> NDArray[Any]:
+    if isinstance(source.image, bytes):
+        raise TypeError(f"image is the path '{os.fsdecode(source.image)}': an array is needed; read_photo() gives one")
+    return source.image
+
+
+def _float32(array: NDArray[Any]) -> NDArray[Any]:
     """The array itself where it is one of float32, else the floats that a file of its values gives."""
     return numpy.asarray(array) if array.dtype == numpy.float32 else _core.floats(array)
 
 
-def _pixels(image: Any) -> numpy.ndarray:
-    source = image_input(image)
-    if not isinstance(source.image, numpy.ndarray):
-        raise TypeError("image is a path: an array is needed")
-    pixels = _float32(source.image)
-    return pixels if pixels.ndim == 3 and pixels.strides[2] == 4 else numpy.ascontiguousarray(pixels)
+def _is_view(array: NDArray[Any]) -> bool:
+    """Whether the compiled module takes it as it lies."""
+    return bool(array.dtype == numpy.float32 and array.ndim == 3 and array.strides[2] == 4 and
+                array.strides[0] % 4 == 0 and array.strides[1] % 4 == 0)
+
+
+def _pixels(image: Any) -> NDArray[Any]:
+    """float32 whose channels are adjacent."""
+    array = _array(image_input(image))
+    return array if _is_view(array) else numpy.ascontiguousarray(_float32(array))

@@ -2,46 +2,58 @@
 """The array that srisp's functions return."""
 
 import os
-from typing import Any, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Optional, Tuple, Union
 
 import numpy
+from numpy.typing import NDArray
 
 from . import _core
 
-_CFA_PATTERN = "unprocess:cfa_pattern"
+
+if TYPE_CHECKING:
+    _Array = numpy.ndarray[Any, numpy.dtype[numpy.float32]]
+else:
+    _Array = numpy.ndarray
 
 
-class Image(numpy.ndarray):
+class Image(_Array):
     """A float32 array that knows how it was made: height x width x channels, or height x width for a mosaic.
 
     It is a numpy array in all respects; parts of it and results of arithmetic keep what it knows. Pickling keeps it, too.
     numpy.asarray(image) forgets it.
     """
 
-    metadata: _core.Metadata
+    _metadata: _core.Metadata
+    _whole: Any  # shape and strides of the mosaic whose filters the metadata names
 
-    def __new__(cls, pixels: numpy.ndarray, metadata: Optional[_core.Metadata] = None) -> "Image":
+    def __new__(cls, pixels: NDArray[Any], metadata: Optional[_core.Metadata] = None) -> "Image":
         image = numpy.asarray(pixels).view(cls)
-        image.metadata = _core.Metadata() if metadata is None else metadata
+        image._metadata = _core.Metadata() if metadata is None else metadata
+        image._whole = (image.shape, image.strides)
         return image
 
-    def __array_finalize__(self, made_from: Optional[numpy.ndarray]) -> None:
-        metadata = getattr(made_from, "metadata", None)
-        if metadata is None or made_from is None:
-            metadata = _core.Metadata()
-        elif _CFA_PATTERN in metadata and (self.shape != made_from.shape or self.strides != made_from.strides):
-            metadata = metadata.copy()  # a part of a mosaic may begin under another filter
-            metadata[_CFA_PATTERN] = None
-            metadata["unprocess:record"] = metadata["ImageDescription"] = None
-        self.metadata = metadata
+    def __array_finalize__(self, made_from: Optional[NDArray[Any]]) -> None:
+        self._metadata = getattr(made_from, "_metadata", None) or _core.Metadata()
+        self._whole = getattr(made_from, "_whole", None)
+
+    @property
+    def metadata(self) -> _core.Metadata:
+        """All that it knows. A part of a mosaic does not know its filters: it may begin under another one."""
+        if self._whole != (self.shape, self.strides) and self._metadata.cfa_pattern:
+            self._metadata = self._metadata.with_cfa_pattern("")
+        return self._metadata
+
+    def __array_wrap__(self, array: Any, context: Any = None, *more: Any) -> Any:
+        return array[()] if array.ndim == 0 else super().__array_wrap__(array, context)
 
     def __reduce__(self) -> Any:
         function, arguments, state = super().__reduce__()  # type: ignore[misc]
         return function, arguments, (state, self.metadata)
 
     def __setstate__(self, state: Any) -> None:
-        super().__setstate__(state[0])  # type: ignore[misc]
-        self.metadata = state[1]
+        super().__setstate__(state[0])
+        self._metadata = state[1]
+        self._whole = (self.shape, self.strides)
 
     @property
     def parameters(self) -> Optional[_core.Parameters]:
@@ -56,7 +68,7 @@ class Image(numpy.ndarray):
     @property
     def cfa_pattern(self) -> str:
         """Of a mosaic: 'RGGB', ... from pixel (0, 0) on; '' for others."""
-        return str(self.metadata.get(_CFA_PATTERN, ""))
+        return self.metadata.cfa_pattern
 
     def save(self, path: "Union[str, os.PathLike[str]]", dtype: str = "") -> None:
         """Writes a file of the kind that its name ends in (exr, tif, png, dng, ...), with all that it knows.

@@ -6,6 +6,7 @@ import sys
 from typing import Any, NamedTuple, Union
 
 import numpy
+from numpy.typing import NDArray
 
 from . import _core
 from ._image import Image
@@ -14,7 +15,7 @@ from ._image import Image
 class Input(NamedTuple):
     """The bytes of a path, or an array and what is known of it."""
 
-    image: Union[bytes, numpy.ndarray]
+    image: Union[bytes, NDArray[Any]]
     metadata: _core.Metadata
 
 
@@ -58,7 +59,7 @@ def _straight() -> _core.Metadata:
     return metadata
 
 
-def _array_of(image: Any) -> numpy.ndarray:
+def _array_of(image: Any) -> NDArray[Any]:
     if isinstance(image, numpy.ndarray):
         return numpy.asarray(image)
     if hasattr(image, "__array__") or hasattr(image, "__array_interface__"):
@@ -68,7 +69,7 @@ def _array_of(image: Any) -> numpy.ndarray:
     raise TypeError(f"image is a {type(image).__name__}: a path, an array, a PIL image or a tensor is needed")
 
 
-def _checked(array: numpy.ndarray) -> numpy.ndarray:
+def _checked(array: NDArray[Any]) -> NDArray[Any]:
     """Of a shape that the compiled module takes, in the machine's own byte order."""
     if array.ndim not in (2, 3):
         raise ValueError(f"array of shape {array.shape}: height x width x channels is needed")
