@@ -34,5 +34,6 @@ BenchLines bench_libraries(const BenchSettings& settings);
 BenchLines bench_ocio(const BenchSettings& settings);
 BenchLines bench_raw_out(const BenchSettings& settings);
 BenchLines bench_develop(const BenchSettings& settings);
+BenchLines bench_in_memory(const BenchSettings& settings);
 BenchLines bench_batch(const BenchSettings& settings);
 BenchLines bench_commands(const BenchSettings& settings);

@@ -20,8 +20,8 @@ constexpr Part kParts[] = { { "apply", bench_apply },         { "sizes", bench_s
                             { "select", bench_select },       { "small_photos", bench_small_photos },
                             { "reference", bench_reference }, { "libraries", bench_libraries },
                             { "ocio", bench_ocio },           { "raw_out", bench_raw_out },
-                            { "develop", bench_develop },     { "batch", bench_batch },
-                            { "commands", bench_commands } };
+                            { "develop", bench_develop },     { "in_memory", bench_in_memory },
+                            { "batch", bench_batch },         { "commands", bench_commands } };
 
 void print(const BenchLine& line)
 {

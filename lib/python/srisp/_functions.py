@@ -13,6 +13,7 @@ from ._inputs import Input, image_input, photo_input, reference_input
 
 _Path = Union[str, "os.PathLike[str]"]
 _WhiteBalance = Union[str, float, Sequence[float]]
+_models: Dict[Tuple[str, Optional[str]], Tuple[_core.Model, Optional[Tuple[int, int, int]]]] = {}
 
 
 def unprocess(image: Any, reference: Union[_core.Reference, _Path, None] = None, *,
@@ -147,7 +148,7 @@ def select(photo: Any, reference: Union[_core.Reference, _Path, Any], model: Uni
         reference = _core.Reference(reference)
     if not isinstance(reference, _core.Reference):
         reference = thumbnail(reference, input="srgb", threads=threads)
-    loaded = model if isinstance(model, _core.Model) else _core.Model(model)
+    loaded = _loaded(model)
     parameters, _ = _core.select(loaded, thumbnail(photo, input=input, threads=threads), reference)
     return parameters
 
@@ -169,7 +170,7 @@ def apply(image: Any, parameters: _core.Parameters, *, direction: str = "reverse
     """
     if not isinstance(parameters, _core.Parameters):
         raise TypeError(f"parameters is a {type(parameters).__name__}: srisp.Parameters is needed")
-    loaded = model if isinstance(model, _core.Model) else _core.Model(parameters.model_name if model is None else model)
+    loaded = _loaded(parameters.model_name if model is None else model)
     if direction not in ("reverse", "forward"):
         raise ValueError(f"direction is '{direction}': 'reverse' or 'forward' is needed")
     if precision not in ("float32", "fast"):
@@ -249,6 +250,26 @@ def lab_intersection(result: Any, truth: Any, camera_to_xyz: Any) -> float:
 def _texts(**options: Any) -> Dict[str, str]:
     """Options as srisptool takes them; None: not said."""
     return {key: str(value) for key, value in options.items() if value is not None}
+
+
+def _loaded(model: Union[_core.Model, _Path]) -> _core.Model:
+    """Loading takes ten times as long as selecting: models are kept, each as long as its file is the same."""
+    if isinstance(model, _core.Model):
+        return model
+    key = (os.fspath(model), os.environ.get("SRISP_MODEL_PATH"))
+    kept, state = _models.get(key, (None, None))
+    if kept is None or state != _state(kept.path):
+        kept = _core.Model(model)
+        _models[key] = (kept, _state(kept.path))
+    return kept
+
+
+def _state(path: str) -> Optional[Tuple[int, int, int]]:
+    try:
+        found = os.stat(path)
+    except OSError:
+        return None
+    return found.st_ino, found.st_mtime_ns, found.st_size
 
 
 def _model_path(model: Union[_core.Model, _Path, None]) -> Optional[str]:
