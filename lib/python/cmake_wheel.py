@@ -66,8 +66,8 @@ def build_with_cmake():
 
 class PlatformWheel(bdist_wheel):
     def finalize_options(self):
+        self.distribution.has_ext_modules = lambda: True  # it holds machine code, though setuptools compiles none
         super().finalize_options()
-        self.root_is_pure = False  # it holds machine code
 
 
 def move_into_package(prefix, package):

@@ -19,7 +19,7 @@ struct BandSettings {
     bool associate = true;           ///< multiply alpha in
     bool progress = false;           ///< on stderr
     int threads = 0;                 ///< as ApplyOptions
-    std::function<bool()> cancelled; ///< as in Recipe
+    std::function<bool()> cancelled{}; ///< as in Recipe
 };
 
 /// Computes the result of one level band by band, in the order in which rows are asked for: the image as a whole is

@@ -151,7 +151,7 @@ def test_noise_models():
 
 
 def test_images_keep_what_they_know(raw):
-    assert raw.notes == () and raw.cfa_pattern == "" and raw.metadata["oiio:ColorSpace"] == "camera_rgb"
+    assert raw.notes == "" and raw.cfa_pattern == "" and raw.metadata["oiio:ColorSpace"] == "camera_rgb"
     again = pickle.loads(pickle.dumps(raw))
     same_bits(again, raw)
     assert type(again) is srisp.Image and again.parameters == raw.parameters

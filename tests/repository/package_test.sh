@@ -48,8 +48,9 @@ exports_only_srisp() {
 }
 
 names_no_absolute_folders() {
-    for file in "$library/libsrisp.so" "$library/libsrisp_ocio.so" "$library"/srisp/*.so "$prefix"/bin/*; do
-        if readelf -d "$file" 2>/dev/null | grep -E 'R(UN)?PATH' | grep -vF '[$ORIGIN]'; then return 1; fi
+    for file in "$library/libsrisp.so" "$library/libsrisp_ocio.so" "$library"/srisp/*.so "$prefix"/bin/* \
+        "$prefix"/lib/python*/dist-packages/srisp/*.so; do
+        if readelf -d "$file" 2>/dev/null | grep -E 'R(UN)?PATH' | grep -E '\[/|:/'; then return 1; fi
     done
     ! grep -rnF -e "$build" -e "$source" "$library/cmake" "$library/pkgconfig"
 }

@@ -73,7 +73,10 @@ run_block() (
     export PATH="$HOME/srisp/bin:$PATH"
     case $1 in
         sh) sh -ex "$2" </dev/null ;;
-        python) OIIO_LIBRARY_PATH="$HOME/srisp/lib/srisp" /usr/bin/python3 "$2" </dev/null ;;
+        python)
+            OIIO_LIBRARY_PATH="$HOME/srisp/lib/srisp" PYTHONPATH="$(echo "$HOME"/srisp/lib/python3*/dist-packages)" \
+                /usr/bin/python3 "$2" </dev/null
+            ;;
         cpp) run_cpp "$2" ;;
     esac
 )
@@ -82,6 +85,11 @@ run_document() {
     rm -f "$scratch"/block.*
     : >"$scratch/blocks"
     check "$1: every block says its language" blocks_of "$1"
+    if grep -q '^All blocks of this page are one program' "$source/$1"; then
+        cat "$scratch"/block.*.python >"$scratch/program"
+        check "$1 runs" run_block python "$scratch/program"
+        return
+    fi
     while read -r line language file; do
         [ "$language" != cpp ] || [ "$1" = README.md ] || continue
         check "$1:$line runs" run_block "$language" "$file"

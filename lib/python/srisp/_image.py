@@ -2,7 +2,7 @@
 """The array that srisp's functions return."""
 
 import os
-from typing import TYPE_CHECKING, Any, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy
 from numpy.typing import NDArray
@@ -61,9 +61,9 @@ class Image(_Array):
         return self.metadata.parameters
 
     @property
-    def notes(self) -> Tuple[str, ...]:
-        """What was ignored, assumed or clipped, one sentence each."""
-        return tuple(note for note in self.metadata.notes.split("; ") if note)
+    def notes(self) -> str:
+        """What was ignored, assumed or clipped, in sentences; "" where nothing was."""
+        return self.metadata.notes
 
     @property
     def cfa_pattern(self) -> str:
