@@ -83,6 +83,5 @@ def pytest_terminal_summary(terminalreporter, exitstatus):
     stats = terminalreporter.stats
     for report in stats.get("skipped", []):
         terminalreporter.write_line(f"SKIPPED {report.nodeid}: {report.longrepr[2]}")
-    passed = len(stats.get("passed", [])) + len(stats.get("skipped", []))
     failed = len(stats.get("failed", [])) + len(stats.get("error", []))
-    terminalreporter.write_line(f"{passed - len(stats.get('skipped', []))} passed, {failed} failed")
+    terminalreporter.write_line(f"{len(stats.get('passed', []))} passed, {failed} failed")
