@@ -19,6 +19,8 @@ class Interruption {
 public:
     bool pending()
     {
+        if (is_ending())
+            return true;
         const auto now = Clock::now();
         if (m_raised || now - m_last < std::chrono::milliseconds(50))
             return bool(m_raised);
@@ -50,11 +52,8 @@ template<class Job> auto wait_for(Job job) -> decltype(job())
     auto result = task.get_future();
     Interruption interruption;
     {
-        const py::gil_scoped_release unlocked;
-        std::thread([task = std::move(task)]() mutable {
-            const Unlocked::Work work;
-            task();
-        }).detach();
+        const Unlocked unlocked;
+        std::thread([task = std::move(task), work = std::make_unique<BackgroundWork>()]() mutable { task(); }).detach();
         while (result.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready && !interruption.pending())
             continue;
     }

@@ -12,7 +12,7 @@ PYBIND11_MODULE(_core, module)
     module.attr("__version__") = SRISP_VERSION;
     py::register_exception<LibraryError>(module, "Error", PyExc_RuntimeError).doc() =
         "What srisp could not do; the message says what, where, the value and the limit.";
-    hold_forks();
+    watch_interpreter();
     bind_model(module);
     bind_parameters(module);
     bind_reference(module);

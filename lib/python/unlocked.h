@@ -6,28 +6,40 @@
 namespace srisp::python {
 
 /// While the library works: other threads of Python run, and forks wait until it is done. A child of a fork has one
-/// thread; what another one has locked meanwhile would stay locked there for ever.
+/// thread; what another one has locked meanwhile would stay locked there for ever. Where the interpreter ends
+/// meanwhile, the thread stops here for ever: to take the lock again would end it, and with it, in the midst of C++,
+/// the program.
 class Unlocked {
 public:
     Unlocked() = default;
     Unlocked(const Unlocked&) = delete;
     Unlocked& operator=(const Unlocked&) = delete;
 
-    /// The latter part alone, for threads that are none of Python's.
-    class Work {
-    public:
+private:
+    /// The latter parts.
+    struct Work {
         Work();
         ~Work();
-        Work(const Work&) = delete;
-        Work& operator=(const Work&) = delete;
     };
 
-private:
     py::gil_scoped_release m_released; // first: who forks needs the lock to go on
     Work m_work;
 };
 
-/// Has Python call the following at forks.
-void hold_forks();
+/// Work that goes on, in a thread that is none of Python's, when the call that began it has ended: made within the
+/// call, kept until the work is done. Forks and the interpreter's end wait for it.
+class BackgroundWork {
+public:
+    BackgroundWork();
+    ~BackgroundWork();
+    BackgroundWork(const BackgroundWork&) = delete;
+    BackgroundWork& operator=(const BackgroundWork&) = delete;
+};
+
+/// Whether the interpreter waits for calls under way so that it can end.
+bool is_ending();
+
+/// Has Python do its part at forks and at its end.
+void watch_interpreter();
 
 } // namespace srisp::python

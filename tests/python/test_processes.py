@@ -80,14 +80,15 @@ def test_forked_children_read_files_of_all_kinds(raw, photo_path, reference, tmp
         assert child.exitcode == 0
 
 
-def test_forks_while_threads_are_at_work_do_not_hang(photo, reference, raw):
+def test_forks_while_threads_are_at_work_do_not_hang(photo, photo_path, reference, raw, tmp_path):
     stop = threading.Event()
+    raw.save(tmp_path / "raw.exr", "float")
 
-    def work():
+    def work(image):
         while not stop.is_set():
-            srisp.unprocess(photo, reference)
+            srisp.unprocess(image, reference, input="srgb")
 
-    threads = [threading.Thread(target=work) for _ in range(3)]
+    threads = [threading.Thread(target=work, args=(image,)) for image in (photo, photo_path, tmp_path / "raw.exr")]
     for thread in threads:
         thread.start()
     context = multiprocessing.get_context("fork")
@@ -202,5 +203,15 @@ def test_a_program_that_ends_at_once_ends_well(reference_path):
                     "r = srisp.Reference(sys.argv[1])\n"
                     "threading.Thread(target=lambda: srisp.unprocess(numpy.zeros((2000, 2000, 3), numpy.uint8), r), daemon=True).start()"):
         run = subprocess.run([sys.executable, "-c", program, reference_path], timeout=60, stderr=subprocess.PIPE, text=True)
+        assert (run.returncode, run.stderr) == (0, "")
+    at_work = ("import srisp, threading, numpy, sys, time\n"
+               "reference, image = srisp.Reference(sys.argv[1]), numpy.zeros((1000, 1000, 3), numpy.uint8)\n"
+               "def work():\n"
+               "    while True: srisp.unprocess(image, srisp.Reference(sys.argv[1]))\n"
+               "for i in range(3): threading.Thread(target=work, daemon=True).start()\n"
+               "time.sleep(float(sys.argv[2]))\n"
+               "import atexit; atexit.register(lambda: srisp.thumbnail(image))")
+    for pause in (0.01, 0.1, 0.2, 0.3, 0.5):
+        run = subprocess.run([sys.executable, "-c", at_work, reference_path, str(pause)], timeout=60, stderr=subprocess.PIPE, text=True)
         assert (run.returncode, run.stderr) == (0, "")
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler

@@ -120,6 +120,23 @@ def test_alpha_of_files_is_straight_too(photo, reference, tmp_path):
     same_bits(srisp.unprocess(path, reference), srisp.unprocess(pixels, reference))
 
 
+def test_alpha_is_saved_as_the_tool_saves_it(photo, reference, reference_path, tool, tmp_path):
+    alpha = numpy.arange(50 * 60, dtype=numpy.uint8).reshape(50, 60)
+    path = write(tmp_path / "alpha.png", numpy.dstack([photo[:50, :60], alpha]), unassociated=1)
+    raw = srisp.unprocess(path, reference)
+    raw.save(tmp_path / "python.exr", "float")
+    same_bits(oiio.ImageBuf(str(tmp_path / "python.exr")).get_pixels(oiio.FLOAT),
+              tool(path, "--srisp-unprocess", reference_path, suffix=".exr"))
+    again = srisp.process(tmp_path / "python.exr")
+    opaque = alpha > 100
+    assert abs(again[opaque] - srisp.process(raw)[opaque]).max() < 1e-3
+
+
+def test_a_raw_like_image_is_no_photo(raw, reference):
+    with pytest.raises(srisp.Error, match="photo in memory: is a RAW-like image already"):
+        srisp.unprocess(raw, reference)
+
+
 def test_pil_images_are_as_their_files(photo, photo_path, reference, raw, tmp_path):
     same_bits(srisp.unprocess(Image.open(photo_path), reference), raw)
     small = Image.open(photo_path).resize((90, 60))

@@ -74,7 +74,13 @@ class Image(_Array):
         """Writes a file of the kind that its name ends in (exr, tif, png, dng, ...), with all that it knows.
 
         dtype: how values are stored: "half", "float", "uint8", "uint16"; "" is half in EXR, float in TIFF, else uint16.
-        The file appears when it is complete. Raises srisp.Error.
+        Colour is multiplied with alpha, as files of OpenImageIO have it. The file appears when it is complete. Raises
+        srisp.Error.
         """
         pixels = numpy.ascontiguousarray(numpy.asarray(self), numpy.float32)
-        _core.write(os.fsencode(path), pixels, self.metadata, dtype)
+        metadata = self.metadata
+        if metadata.get("oiio:UnassociatedAlpha") and pixels.ndim == 3 and pixels.shape[2] == 4:
+            pixels = pixels * numpy.concatenate([numpy.repeat(pixels[..., 3:], 3, 2), numpy.ones_like(pixels[..., 3:])], 2)
+            metadata = metadata.copy()
+            metadata["oiio:UnassociatedAlpha"] = None
+        _core.write(os.fsencode(path), pixels, metadata, dtype)
