@@ -60,16 +60,15 @@ def test_errors_have_one_class():
 
 
 def test_types_are_whole():
-    """mypy, strictly; and the stub against the compiled module."""
+    """mypy, strictly, on the package and on a user's program; and the stub against the compiled module."""
     subprocess.run([sys.executable, "-m", "mypy", "--cache-dir", BUILD / "mypy", "--config-file", "pyproject.toml"],
                    cwd=SOURCE, check=True)
     program = SOURCE / "tests" / "python" / "typed_program.py"
     subprocess.run([sys.executable, "-m", "mypy", "--cache-dir", BUILD / "mypy", "--strict", program], cwd=SOURCE, check=True,
                    env={"MYPYPATH": str(PACKAGE.parent), "PATH": "/usr/bin:/bin"})
-    stub = set(re.findall(r"^(?:class|def) (\w+)", (PACKAGE / "_core.pyi").read_text(), re.M))
-    from srisp import _core
-    assert stub == {name for name in vars(_core) if not name.startswith("_")}
-    for name in ("Model", "Parameters", "CameraFacts", "NoiseModel", "Reference", "Metadata"):
-        body = (PACKAGE / "_core.pyi").read_text().split(f"class {name}")[1].split("\nclass ")[0].split("\n_Result")[0]
-        typed = set(re.findall(r"def ([a-z]\w*)\(", body)) | set(re.findall(r"^    ([a-z]\w*):", body, re.M))
-        assert typed == {member for member in vars(getattr(_core, name)) if not member.startswith("_")}, name
+    environment = {"MYPYPATH": str(PACKAGE.parent), "PYTHONPATH": str(BUILD / "python"), "PATH": "/usr/bin:/bin"}
+    found = subprocess.run([sys.executable, "-m", "mypy.stubtest", "--concise", "srisp._core"], env=environment, text=True,
+                           stdout=subprocess.PIPE).stdout.splitlines()
+    # pybind11's classes have a metaclass, and one that Python cannot make an __init__ of object's.
+    expected = re.compile(r"srisp\._core\.\w+ is inconsistent, metaclass differs|srisp\._core\.CameraFacts\.__init__ .*")
+    assert [line for line in found if not expected.fullmatch(line)] == [] and len(found) > 5

@@ -360,6 +360,8 @@ def test_images_are_saved_with_all_that_they_know(raw, tmp_path):
         assert srisp.process(tmp_path / name).parameters == raw.parameters
     with pytest.raises(srisp.Error, match="/nowhere/raw.exr"):
         raw.save("/nowhere/raw.exr")
+    with pytest.raises(ValueError, match="dtype is 'flaot'"):
+        raw.save(tmp_path / "raw.exr", "flaot")
     with pytest.raises(srisp.Error, match="raw.xyz"):
         raw.save(tmp_path / "raw.xyz")
 

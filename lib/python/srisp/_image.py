@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from . import _core
 
+_STORED = ("", "half", "float", "uint8", "uint16")
 
 if TYPE_CHECKING:
     _Array = numpy.ndarray[Any, numpy.dtype[numpy.float32]]
@@ -74,9 +75,12 @@ class Image(_Array):
         """Writes a file of the kind that its name ends in (exr, tif, png, dng, ...), with all that it knows.
 
         dtype: how values are stored: "half", "float", "uint8", "uint16"; "" is half in EXR, float in TIFF, else uint16.
+            A kind of file that lacks the type takes the nearest.
         Colour is multiplied with alpha, as files of OpenImageIO have it. The file appears when it is complete. Raises
-        srisp.Error.
+        srisp.Error, ValueError.
         """
+        if dtype not in _STORED:
+            raise ValueError(f"dtype is '{dtype}': one of {', '.join(map(repr, _STORED))} is needed")
         pixels = numpy.ascontiguousarray(numpy.asarray(self), numpy.float32)
         metadata = self.metadata
         if metadata.get("oiio:UnassociatedAlpha") and pixels.ndim == 3 and pixels.shape[2] == 4:
