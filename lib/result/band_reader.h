@@ -16,9 +16,9 @@ namespace srisp {
 struct BandSettings {
     std::shared_ptr<const PhotoConverter> converter;
     std::shared_ptr<const Applier> applier;
-    bool associate = true;           ///< multiply alpha in
-    bool progress = false;           ///< on stderr
-    int threads = 0;                 ///< as ApplyOptions
+    bool associate = true;             ///< multiply alpha in
+    bool progress = false;             ///< on stderr
+    int threads = 0;                   ///< as ApplyOptions
     std::function<bool()> cancelled{}; ///< as in Recipe
 };
 
