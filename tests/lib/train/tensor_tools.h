@@ -15,6 +15,12 @@ inline std::vector<float> values_of(const torch::Tensor& tensor)
     return { flat.data_ptr<float>(), flat.data_ptr<float>() + flat.numel() };
 }
 
+/// The largest size of an element.
+inline double largest(const torch::Tensor& tensor)
+{
+    return tensor.abs().max().item<double>();
+}
+
 /// Interleaved RGB, height × width, as [1, 3, height, width].
 inline torch::Tensor planar(const std::vector<float>& rgb, std::int64_t height, std::int64_t width)
 {

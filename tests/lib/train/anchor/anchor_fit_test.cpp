@@ -11,11 +11,6 @@ using namespace srisp::train;
 
 namespace {
 
-double largest(const torch::Tensor& tensor)
-{
-    return tensor.abs().max().item<double>();
-}
-
 /// All of a fit: nothing where there is none.
 std::optional<AnchorFit> start_anchor(Unprocessor& model, Samples& samples, const AnchorFitSettings& settings,
                                       std::uint64_t seed, const std::function<void(double)>& progress = {})

@@ -17,11 +17,6 @@ std::shared_ptr<Unprocessor> baseline(const std::string& method, std::uint64_t s
     return make_unprocessor(settings, seed);
 }
 
-double largest(const torch::Tensor& tensor)
-{
-    return tensor.abs().max().item<double>();
-}
-
 } // namespace
 
 TEST_CASE("gain match gives the reference's channel means, and its forward pass takes them back")

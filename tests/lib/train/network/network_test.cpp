@@ -44,11 +44,6 @@ std::vector<Variant> variants()
     return all;
 }
 
-double largest(const torch::Tensor& tensor)
-{
-    return tensor.abs().max().item<double>();
-}
-
 /// As in training: both passes, in one loss.
 torch::Tensor loss_of(Unprocessor& model)
 {

@@ -9,11 +9,6 @@ using namespace srisp::train;
 
 namespace {
 
-double largest(const torch::Tensor& tensor)
-{
-    return tensor.abs().max().item<double>();
-}
-
 torch::Tensor pixel(float r, float g, float b)
 {
     return torch::tensor({ r, g, b }).view({ 1, 3, 1, 1 });

@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include "lib/train/tensor_tools.h"
+
 #include "train/tensors/color.h"
 
 using namespace srisp::train;
@@ -39,11 +41,6 @@ torch::Tensor rendered(const CameraIspSettings& settings, const torch::Tensor& r
     const auto own = torch::eye(3).expand({ count, 3, 3 });
     return render_camera(settings, raw, torch::ones({ count, 3 }), own, dnd_rgb_to_camera().unsqueeze(0),
                          torch::full({ count }, gain), randoms);
-}
-
-double largest(const torch::Tensor& difference)
-{
-    return difference.abs().max().item<double>();
 }
 
 constexpr double kCode = 0.501 / 255; // half of one of 8 bits
