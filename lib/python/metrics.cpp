@@ -10,6 +10,17 @@ namespace srisp::python {
 
 namespace {
 
+using Matrix = std::array<std::array<float, 3>, 3>;
+
+/// Row-major.
+std::array<float, 9> values_of(const Matrix& rows)
+{
+    std::array<float, 9> values;
+    for (std::size_t i = 0; i < 9; ++i)
+        values[i] = rows[i / 3][i % 3];
+    return values;
+}
+
 /// Two images of one size.
 std::pair<ImageView, ImageView> pair_of(const py::array& result, const py::array& truth)
 {
@@ -32,6 +43,12 @@ template<class Measure> auto measured(const py::array& result, const py::array& 
 void bind_metrics(py::module_& module)
 {
     module.def("psnr", [](const py::array& result, const py::array& truth) { return measured(result, truth, &psnr); });
+    module.def("ssim", [](const py::array& result, const py::array& truth) { return measured(result, truth, &ssim); });
+    module.def("delta_e2000", [](const py::array& result, const py::array& truth, const Matrix& camera_to_xyz) {
+        return measured(result, truth, [matrix = values_of(camera_to_xyz)](ImageView a, ImageView b) {
+            return mean_delta_e2000(a, b, matrix);
+        });
+    });
     module.def("angular_error", [](const py::array& result, const py::array& truth) {
         return measured(result, truth, &angular_error).mean();
     });
@@ -39,12 +56,9 @@ void bind_metrics(py::module_& module)
         const HighlightErrors errors = measured(result, truth, &highlight_errors);
         return py::make_tuple(errors.mean(), errors.mean_at_gain());
     });
-    module.def("lab_intersection", [](const py::array& result, const py::array& truth,
-                                      const std::array<std::array<float, 3>, 3>& camera_to_xyz) {
+    module.def("lab_intersection", [](const py::array& result, const py::array& truth, const Matrix& camera_to_xyz) {
         const auto views = std::pair(view_of(result, "result"), view_of(truth, "truth"));
-        std::array<float, 9> matrix;
-        for (std::size_t i = 0; i < 9; ++i)
-            matrix[i] = camera_to_xyz[i / 3][i % 3];
+        const std::array<float, 9> matrix = values_of(camera_to_xyz);
         const Unlocked unlocked;
         LabHistogram a, b;
         a.add(views.first, matrix);

@@ -115,6 +115,9 @@ def test_metrics(raw):
     assert srisp.highlight_errors(bright - 0.1, bright)[0] == pytest.approx(-0.1, rel=1e-4)
     assert srisp.lab_intersection(raw, truth, numpy.eye(3)) == pytest.approx(1)
     assert srisp.lab_intersection(raw * 0.5, truth, numpy.eye(3)) < 0.9
+    assert srisp.ssim(raw, truth) == pytest.approx(1) and 0 < srisp.ssim(truth + noise, truth) < 0.99
+    assert numpy.isnan(srisp.ssim(truth[:10], truth[:10]))
+    assert srisp.delta_e2000(raw, truth, numpy.eye(3)) == 0 < srisp.delta_e2000(raw * 0.9, truth, numpy.eye(3)) < 20
     with pytest.raises(ValueError, match="the same is needed"):
         srisp.psnr(truth, truth[1:])
     with pytest.raises(ValueError, match="height x width x 3"):

@@ -17,6 +17,11 @@ namespace srisp {
 /// Peak signal-to-noise ratio in dB of one image, peak 1, over all channels; infinite where the two are equal.
 SRISP_API double psnr(ImageView result, ImageView truth);
 
+/// Structural similarity of one image, peak 1: mean over R, G, B and over all places where the Gaussian window (11 ×
+/// 11, σ 1.5) lies within the image. 1 where the two are equal; NaN for images of fewer than 11 pixels a side. [Wang et
+/// al. 2004, K1 0.01, K2 0.03]
+SRISP_API double ssim(ImageView result, ImageView truth);
+
 /// Angles between the colours of pixels. Add up those of several images with `+=`.
 struct AngularError {
     double sum_degrees = 0;
@@ -46,6 +51,11 @@ SRISP_API HighlightErrors highlight_errors(ImageView result, ImageView truth);
 
 /// CIE Lab of an XYZ colour, white D65 (.95047, 1, 1.08883). [CIE 15:2004]
 SRISP_API std::array<double, 3> lab_from_xyz(const std::array<double, 3>& xyz);
+
+/// How different two Lab colours look: about 1 is just noticeable. [CIEDE2000: CIE 142-2001; Sharma et al. 2005]
+SRISP_API double delta_e2000(const std::array<double, 3>& lab1, const std::array<double, 3>& lab2);
+/// Mean over the pixels of two images, under a camera's matrix (row-major 3×3, the inverse of XYZ → camera).
+SRISP_API double mean_delta_e2000(ImageView result, ImageView truth, const std::array<float, 9>& camera_to_xyz);
 
 /// How often each value of L, a and b occurs: 512 bins on [−150, 150] per channel; what lies outside counts as the last
 /// bin.

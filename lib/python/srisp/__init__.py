@@ -24,21 +24,21 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ._core import (CameraFacts, Error, Metadata, Model, NoiseModel, Parameters, Reference, __version__)
-    from ._functions import (add_noise, angular_error, apply, develop, highlight_errors, lab_intersection, mosaic, process,
-                             psnr, read_photo, select, thumbnail, unprocess, write_dng)
+    from ._functions import (add_noise, angular_error, apply, delta_e2000, develop, highlight_errors, lab_intersection,
+                             mosaic, process, psnr, read_photo, select, ssim, thumbnail, unprocess, write_dng)
     from ._image import Image
 
 _places = {
     "_core": ("CameraFacts", "Error", "Metadata", "Model", "NoiseModel", "Parameters", "Reference", "__version__"),
-    "_functions": ("add_noise", "angular_error", "apply", "develop", "highlight_errors", "lab_intersection", "mosaic",
-                   "process", "psnr", "read_photo", "select", "thumbnail", "unprocess", "write_dng"),
+    "_functions": ("add_noise", "angular_error", "apply", "delta_e2000", "develop", "highlight_errors", "lab_intersection",
+                   "mosaic", "process", "psnr", "read_photo", "select", "ssim", "thumbnail", "unprocess", "write_dng"),
     "_image": ("Image",),
 }
 
 # Image is none of them: `help(srisp)` would list all of numpy.ndarray.
 __all__ = ["CameraFacts", "Error", "Metadata", "Model", "NoiseModel", "Parameters", "Reference", "__version__", "add_noise",
-           "angular_error", "apply", "develop", "highlight_errors", "lab_intersection", "mosaic", "process", "psnr",
-           "read_photo", "select", "thumbnail", "unprocess", "write_dng"]
+           "angular_error", "apply", "delta_e2000", "develop", "highlight_errors", "lab_intersection", "mosaic", "process",
+           "psnr", "read_photo", "select", "ssim", "thumbnail", "unprocess", "write_dng"]
 
 
 def __getattr__(name: str) -> object:

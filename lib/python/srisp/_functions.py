@@ -229,6 +229,14 @@ def psnr(result: Any, truth: Any) -> float:
     return _core.psnr(_pixels(result), _pixels(truth))
 
 
+def ssim(result: Any, truth: Any) -> float:
+    """Structural similarity, peak 1: mean over R, G, B and a Gaussian window of 11 x 11 (Wang et al. 2004).
+
+    1: the two are equal; nan: fewer than 11 pixels a side. ValueError for two shapes.
+    """
+    return _core.ssim(_pixels(result), _pixels(truth))
+
+
 def angular_error(result: Any, truth: Any) -> float:
     """Mean angle between the colours of pixels in degrees; black ones do not count (nan: all are)."""
     return _core.angular_error(_pixels(result), _pixels(truth))
@@ -237,6 +245,14 @@ def angular_error(result: Any, truth: Any) -> float:
 def highlight_errors(result: Any, truth: Any) -> Tuple[float, float]:
     """Mean of result - truth where truth is above 0.8: as it is, and at the gain that fits the darker pixels best."""
     return _core.highlight_errors(_pixels(result), _pixels(truth))
+
+
+def delta_e2000(result: Any, truth: Any, camera_to_xyz: Any) -> float:
+    """Mean CIEDE2000 of two images of linear camera RGB; about 1 is just noticeable.
+
+    camera_to_xyz: 3 x 3, as for lab_intersection(). ValueError for two shapes.
+    """
+    return _core.delta_e2000(_pixels(result), _pixels(truth), numpy.asarray(camera_to_xyz, numpy.float32).tolist())
 
 
 def lab_intersection(result: Any, truth: Any, camera_to_xyz: Any) -> float:
