@@ -20,6 +20,7 @@
 #include <unistd.h>
 
 #include "base/installed_files.h"
+#include "base/write_all.h"
 
 extern char** environ;
 
@@ -147,17 +148,6 @@ void limit_this_process(const std::string& path)
 #endif
 }
 
-bool write_all(const std::string& bytes)
-{
-    for (std::size_t done = 0; done < bytes.size();) {
-        const ssize_t count = ::write(STDOUT_FILENO, bytes.data() + done, bytes.size() - done);
-        if (count < 0 && errno != EINTR)
-            return false;
-        done += std::size_t(std::max<ssize_t>(count, 0));
-    }
-    return true;
-}
-
 } // namespace
 
 Error decoder_nonsense()
@@ -220,7 +210,8 @@ int serve_decoder(int argc, char** argv,
     } catch (const std::exception& thrown) {
         answer = Error{ thrown.what() };
     }
-    return write_all(framed(answer)) ? 0 : 1;
+    const auto to_stdout = [](const char* data, std::size_t size) { return ::write(STDOUT_FILENO, data, size); };
+    return write_all(framed(answer), to_stdout) ? 0 : 1;
 }
 
 } // namespace srisp

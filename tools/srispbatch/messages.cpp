@@ -11,6 +11,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "base/write_all.h"
+
 namespace srisp::tool {
 
 namespace {
@@ -62,13 +64,8 @@ bool send_message(int file, const Message& message)
         add(std::uint32_t(text.size()));
         bytes += text;
     }
-    for (std::size_t at = 0; at < bytes.size();) {
-        const ssize_t count = ::send(file, bytes.data() + at, bytes.size() - at, MSG_NOSIGNAL);
-        if (count < 0 && errno != EINTR)
-            return false;
-        at += std::size_t(std::max<ssize_t>(count, 0));
-    }
-    return true;
+    return write_all(bytes,
+                     [file](const char* data, std::size_t size) { return ::send(file, data, size, MSG_NOSIGNAL); });
 }
 
 std::optional<Message> receive_message(int file, double seconds, bool& timed_out)

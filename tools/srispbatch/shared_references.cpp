@@ -9,6 +9,7 @@
 #include <srisp/reference.h>
 
 #include "base/file_bytes.h"
+#include "base/write_all.h"
 #include "reference/reference_bytes.h"
 #include "reference/reference_cache.h"
 
@@ -28,7 +29,7 @@ Expected<Shared> decoded(const std::string& path)
     if (file < 0)
         return Error{ "no memory to share" };
     auto shared = std::make_shared<const SharedReference>(file);
-    if (::write(file, bytes.data(), bytes.size()) != ssize_t(bytes.size()))
+    if (!write_all(bytes, [file](const char* data, std::size_t size) { return ::write(file, data, size); }))
         return Error{ "no memory to share" };
     return Shared(std::move(shared));
 }
