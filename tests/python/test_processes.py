@@ -110,7 +110,8 @@ import os, signal, sys, threading, time
 import numpy, srisp
 reference = srisp.Reference(sys.argv[1])
 image = numpy.random.default_rng(1).integers(0, 255, (6000, 8000, 3), numpy.uint8)
-srisp.unprocess(image[:100, :100], reference)
+floats = image.astype(numpy.float32) / numpy.float32(255) if "floats" in sys.argv[3] else None
+parameters = srisp.unprocess(image[:100, :100], reference).parameters
 sent = []
 def send():
     time.sleep(float(sys.argv[2]))
@@ -131,14 +132,13 @@ assert srisp.unprocess(image[:100, :100], reference).shape == (100, 100, 3)
 
 @pytest.mark.parametrize("call, after", [
     ("srisp.unprocess(image, reference)", 0.02), ("srisp.unprocess(image, reference)", 0.5),
-    ("srisp.unprocess(image.astype(numpy.float32) / 255, reference)", 0.7),
-    ("srisp.process(image.astype(numpy.float32) / 255, srisp.select(image[:100], reference))", 0.8),
-    ("srisp.apply(image, srisp.select(image[:100], reference))", 0.6),
+    ("srisp.unprocess(floats, reference)", 0.3), ("srisp.process(floats, parameters)", 0.3),
+    ("srisp.apply(image, parameters)", 0.3), ("srisp.apply(floats, parameters)", 0.3),
     ("srisp.thumbnail(image)", 0.1)])
 def test_ctrl_c_is_answered_at_once(reference_path, call, after):
     times = []
     for _ in range(5):  # the machine may be busy: the quickest counts
-        run = subprocess.run([sys.executable, "-c", WORK.format(call=call), reference_path, str(after)], text=True,
+        run = subprocess.run([sys.executable, "-c", WORK.format(call=call), reference_path, str(after), call], text=True,
                              stdout=subprocess.PIPE, timeout=120, check=True)
         times.append(run.stdout.strip())
         if times[-1] == "finished" or float(times[-1]) < 0.2:
