@@ -56,7 +56,6 @@ MemoryImage image_of(const py::array& array, const Metadata& metadata, const std
                               ": height x width, or height x width x channels is needed");
     require_sides(array);
     MemoryImage image;
-    image.spec = metadata.spec;
     const int channels = array.ndim() == 3 ? int(array.shape(2)) : 1;
     OIIO::ImageSpec layout(int(array.shape(1)), int(array.shape(0)), channels, type_of(array.dtype()));
     layout.extra_attribs = metadata.spec.extra_attribs;
@@ -77,6 +76,27 @@ MemoryImage image_of(const py::array& array, const Metadata& metadata, const std
     image.y_stride = array.strides(0);
     image.name = name;
     return image;
+}
+
+ImageInput input_of(const py::object& image, const Metadata& metadata, const std::string& name)
+{
+    return py::isinstance<py::bytes>(image) ? ImageInput(image.cast<std::string>())
+                                            : ImageInput(image_of(image.cast<py::array>(), metadata, name));
+}
+
+int checked_threads(int threads)
+{
+    if (threads < 0)
+        throw py::value_error("threads is " + std::to_string(threads) + ": 0 (all), or 1 and more are possible");
+    return threads;
+}
+
+std::array<float, 9> row_major(const std::array<std::array<float, 3>, 3>& rows)
+{
+    std::array<float, 9> values;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = rows[i / 3][i % 3];
+    return values;
 }
 
 ImageView view_of(const py::array& array, const char* what)

@@ -35,9 +35,6 @@ class Build(build):
     def initialize_options(self):
         super().initialize_options()
         self.build_base = tempfile.mkdtemp(prefix="srisp-wheel.")
-
-    def run(self):
-        super().run()
         # bdist_wheel takes the files from there afterwards; it goes with the process.
         atexit.register(shutil.rmtree, self.build_base, ignore_errors=True)
 

@@ -16,33 +16,15 @@ namespace {
 
 using Texts = std::map<std::string, std::string>;
 
-/// The bytes of a path, or an array with what it says of itself.
-class Input {
-public:
-    Input(const py::object& image, const Metadata& metadata, const std::string& name)
-    {
-        if (py::isinstance<py::bytes>(image))
-            m_input.emplace(image.cast<std::string>());
-        else
-            m_input.emplace(image_of(image.cast<py::array>(), metadata, name));
-    }
-    const ImageInput& get() const { return *m_input; }
-
-private:
-    std::optional<ImageInput> m_input;
-};
-
 /// `texts`: as set_option takes them.
 Options options_of(const Texts& texts, const std::optional<Parameters>& parameters, int threads)
 {
-    if (threads < 0)
-        throw py::value_error("threads is " + std::to_string(threads) + ": 0 (all), or 1 and more are possible");
     Options options;
     for (const auto& [key, text] : texts)
         if (const Status set = set_option(options, key, text); !set)
             raise(set.error());
     options.parameters = parameters;
-    options.threads = threads;
+    options.threads = checked_threads(threads);
     options.straight_alpha = true;
     return options;
 }
@@ -91,21 +73,21 @@ py::tuple unprocess_image(const py::object& image, const Metadata& metadata, con
                           const py::object& reference, const Texts& texts, const std::optional<Parameters>& parameters,
                           int threads)
 {
-    const Input input(image, metadata, name);
+    const ImageInput input = input_of(image, metadata, name);
     const ReferenceInput chosen = reference.is_none()                    ? ReferenceInput("")
                                   : py::isinstance<py::bytes>(reference) ? ReferenceInput(reference.cast<std::string>())
                                                                          : reference.cast<LoadedReference>().shared();
     const Options options = options_of(texts, parameters, threads);
-    return computed([&](const ImageSink& sink) { return unprocess(input.get(), chosen, options, sink); });
+    return computed([&](const ImageSink& sink) { return unprocess(input, chosen, options, sink); });
 }
 
 template<Status (*Function)(const ImageInput&, const Options&, const ImageSink&)>
 py::tuple changed(const py::object& image, const Metadata& metadata, const std::string& name, const Texts& texts,
                   const std::optional<Parameters>& parameters, int threads)
 {
-    const Input input(image, metadata, name);
+    const ImageInput input = input_of(image, metadata, name);
     const Options options = options_of(texts, parameters, threads);
-    return computed([&](const ImageSink& sink) { return Function(input.get(), options, sink); });
+    return computed([&](const ImageSink& sink) { return Function(input, options, sink); });
 }
 
 void write(const py::bytes& file, const py::array& array, const Metadata& metadata, const std::string& type)

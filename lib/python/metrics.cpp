@@ -12,15 +12,6 @@ namespace {
 
 using Matrix = std::array<std::array<float, 3>, 3>;
 
-/// Row-major.
-std::array<float, 9> values_of(const Matrix& rows)
-{
-    std::array<float, 9> values;
-    for (std::size_t i = 0; i < 9; ++i)
-        values[i] = rows[i / 3][i % 3];
-    return values;
-}
-
 /// Two images of one size.
 std::pair<ImageView, ImageView> pair_of(const py::array& result, const py::array& truth)
 {
@@ -45,7 +36,7 @@ void bind_metrics(py::module_& module)
     module.def("psnr", [](const py::array& result, const py::array& truth) { return measured(result, truth, &psnr); });
     module.def("ssim", [](const py::array& result, const py::array& truth) { return measured(result, truth, &ssim); });
     module.def("delta_e2000", [](const py::array& result, const py::array& truth, const Matrix& camera_to_xyz) {
-        return measured(result, truth, [matrix = values_of(camera_to_xyz)](ImageView a, ImageView b) {
+        return measured(result, truth, [matrix = row_major(camera_to_xyz)](ImageView a, ImageView b) {
             return mean_delta_e2000(a, b, matrix);
         });
     });
@@ -58,7 +49,7 @@ void bind_metrics(py::module_& module)
     });
     module.def("lab_intersection", [](const py::array& result, const py::array& truth, const Matrix& camera_to_xyz) {
         const auto views = std::pair(view_of(result, "result"), view_of(truth, "truth"));
-        const std::array<float, 9> matrix = values_of(camera_to_xyz);
+        const std::array<float, 9> matrix = row_major(camera_to_xyz);
         const Unlocked unlocked;
         LabHistogram a, b;
         a.add(views.first, matrix);

@@ -7,6 +7,7 @@
 #include <srisp/parameters.h>
 #include <srisp/select.h>
 
+#include "arrays.h"
 #include "bindings.h"
 
 namespace srisp::python {
@@ -23,8 +24,7 @@ py::array color_of(const Parameters& parameters)
 
 void set_color(Parameters& parameters, const std::array<std::array<float, 3>, 3>& rows)
 {
-    for (std::size_t i = 0; i < 9; ++i)
-        parameters.color[i] = rows[i / 3][i % 3];
+    parameters.color = row_major(rows);
 }
 
 /// A list as a tuple, likewise.

@@ -24,10 +24,8 @@ py::array photo_thumbnail(const py::object& image, const Metadata& metadata, con
 {
     Options options;
     require(set_option(options, "input", encoding));
-    options.threads = threads;
-    const ImageInput input = py::isinstance<py::bytes>(image)
-                                 ? ImageInput(image.cast<std::string>())
-                                 : ImageInput(image_of(image.cast<py::array>(), metadata, name));
+    options.threads = checked_threads(threads);
+    const ImageInput input = input_of(image, metadata, name);
     Interruption interruption;
     Expected<Thumbnail> thumbnail = Error{};
     {
@@ -50,24 +48,23 @@ Thumbnail thumbnail_of(const py::array& array, const char* what)
     return thumbnail;
 }
 
-py::tuple select_parameters(const Model& model, const py::array& photo, const py::object& reference)
+Parameters select_parameters(const Model& model, const py::array& photo, const py::object& reference)
 {
     const Thumbnail source = thumbnail_of(photo, "photo");
     const bool loaded = py::isinstance<LoadedReference>(reference);
     const Thumbnail shown = loaded ? reference.cast<LoadedReference>().get().thumbnail
                                    : thumbnail_of(reference.cast<py::array>(), "reference");
-    std::vector<std::string> notes;
     Expected<Parameters> parameters = Error{};
     {
         const Unlocked unlocked;
-        parameters = select(model, source, shown, &notes);
+        parameters = select(model, source, shown);
     }
     Parameters chosen = value_of(std::move(parameters));
     if (loaded) {
         chosen.reference_name = reference.cast<LoadedReference>().get().name;
         chosen.reference_hash = reference.cast<LoadedReference>().get().hash;
     }
-    return py::make_tuple(chosen, notes);
+    return chosen;
 }
 
 /// The library's never change; pybind11 knows no pointers to what is const.
@@ -89,7 +86,7 @@ public:
         const MutableImageView target = mutable_view_of(out, "out");
         Interruption interruption;
         ApplyOptions options;
-        options.threads = threads;
+        options.threads = checked_threads(threads);
         options.progress = [&](float) { return !interruption.pending(); };
         Status done;
         {

@@ -148,9 +148,7 @@ def select(photo: Any, reference: Union[_core.Reference, _Path, Any], model: Uni
         reference = _core.Reference(reference)
     if not isinstance(reference, _core.Reference):
         reference = thumbnail(reference, input="srgb", threads=threads)
-    loaded = _loaded(model)
-    parameters, _ = _core.select(loaded, thumbnail(photo, input=input, threads=threads), reference)
-    return parameters
+    return _core.select(_loaded(model), thumbnail(photo, input=input, threads=threads), reference)
 
 
 def apply(image: Any, parameters: _core.Parameters, *, direction: str = "reverse",

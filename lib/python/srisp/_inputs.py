@@ -60,8 +60,6 @@ def _straight() -> _core.Metadata:
 
 
 def _array_of(image: Any) -> NDArray[Any]:
-    if isinstance(image, numpy.ndarray):
-        return numpy.asarray(image)
     if hasattr(image, "__array__") or hasattr(image, "__array_interface__"):
         return numpy.asarray(image)
     if hasattr(image, "__dlpack__"):
@@ -122,4 +120,4 @@ def _from_imagebuf(image: Any, openimageio: Any) -> Input:
     types = (openimageio.UINT8, openimageio.UINT16, openimageio.HALF, openimageio.FLOAT)
     known = spec.format.basetype if spec.format.basetype in types else openimageio.FLOAT
     pixels = image.get_pixels(openimageio.TypeDesc(known))
-    return Input(pixels if pixels.dtype.isnative else pixels.astype(pixels.dtype.newbyteorder("=")), metadata)
+    return Input(pixels, metadata)
