@@ -1,17 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Images of all kinds in: the same bits that srisptool gives."""
 import subprocess
-from pathlib import Path
 
 import numpy
 import OpenImageIO
 import pytest
 import srisp
 from conftest import BUILD, same_bits
-from PIL import Image
+from PIL import Image, ImageCms
 
 oiio = OpenImageIO
-ADOBE_RGB = Path("/usr/share/color/icc/colord/AdobeRGB1998.icc")
 
 
 def write(path, pixels, **attributes):
@@ -154,18 +152,28 @@ def test_pil_images_are_as_their_files(photo, photo_path, reference, raw, tmp_pa
             srisp.unprocess(image, reference)
 
 
-def test_a_pil_images_profile_and_orientation_count(photo, photo_path, reference, tmp_path):
+def swapped_profile():
+    """An sRGB profile whose red is blue: the names of two entries of its table are exchanged."""
+    profile = ImageCms.ImageCmsProfile(ImageCms.createProfile("sRGB")).tobytes()
+    head, table = profile[:128], profile[128:128 + 4 + 12 * int.from_bytes(profile[128:132], "big")]
+    swapped = table.replace(b"rXYZ", b"....").replace(b"bXYZ", b"rXYZ").replace(b"....", b"bXYZ")
+    assert swapped != table
+    return head + swapped + profile[128 + len(table):]
+
+
+def test_a_pil_images_profile_and_orientation_count(photo_path, reference, tmp_path):
     small = Image.open(photo_path).resize((90, 60))
     exif = Image.Exif()
     exif[0x0112] = 6
-    keywords = {"exif": exif.tobytes(), "quality": 100}
-    if ADOBE_RGB.exists():
-        keywords["icc_profile"] = ADOBE_RGB.read_bytes()
-    path = tmp_path / "turned.jpg"
-    small.save(path, **keywords)
+    path, plain = tmp_path / "turned.jpg", tmp_path / "plain.jpg"
+    small.save(path, exif=exif.tobytes(), quality=100, icc_profile=swapped_profile())
+    small.save(plain, exif=exif.tobytes(), quality=100)
     result = srisp.unprocess(Image.open(path), reference)
     assert result.shape == (90, 60, 3)
     same_bits(result, srisp.unprocess(path, reference))
+    same_bits(result, srisp.unprocess(oiio.ImageBuf(str(path)), reference))
+    seen, stored = srisp.read_photo(Image.open(path)), srisp.read_photo(plain)
+    assert abs(seen - stored[..., ::-1]).max() < 0.01 < abs(seen - stored).max()
 
 
 def test_an_imagebuf_is_as_its_file(photo_path, reference, raw):
