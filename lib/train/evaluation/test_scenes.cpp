@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
-#include "train/samples/camera_isp.h"
+#include "rendering/test_rendering.h"
+#include "train/evaluation/measure.h"
 #include "train/samples/packed_images.h"
-#include "train/samples/random_isp.h"
 #include "train/samples/simulated_camera.h"
 #include "train/samples/simulation.h"
 #include "train/tensors/color.h"
@@ -71,58 +71,36 @@ SimulationSettings test_simulation(const EvaluationSettings& settings, TestExpos
 // Apart from all other draws of the evaluation.
 constexpr std::uint64_t kLightStream = 0x6c69676874, kRenderingStream = 0x72656e646572, kCameraGainStream = 0x6761696e;
 
-/// Method.md section 4 and the second series of section 6, written out so that other defaults change no score.
-RandomIspSettings random_test_isp()
+template<class Array> Array values(const torch::Tensor& tensor)
 {
-    RandomIspSettings isp;
-    isp.true_white_balance = 0.5;
-    isp.white_balance_error = 0.04;
-    isp.auto_exposure = 0.75;
-    isp.lowest_target = 0.5;
-    isp.highest_target = 1.2;
-    isp.average_metering = 0;
-    isp.lowest_gain = 1;
-    isp.highest_gain = 2;
-    isp.mixed_matrices = 3;
-    isp.linear_saturation = 0;
-    isp.shoulder = 0;
-    isp.lowest_gamma = 2.0;
-    isp.highest_gamma = 3.2;
-    isp.smoothstep = "random";
-    isp.smoothstep_share = 0.4;
-    isp.local_contrast = 0;
-    isp.channel_curves = 0;
-    return isp;
+    const auto contiguous = tensor.to(torch::kFloat32).contiguous();
+    Array result;
+    std::copy_n(contiguous.data_ptr<float>(), result.size(), result.begin());
+    return result;
 }
 
-/// Likewise: the families of curves that converters and cameras use, and dcraw's way to brighten.
-CameraIspSettings test_camera_isp()
+std::vector<Matrix3> matrix_list(const torch::Tensor& matrices)
 {
-    CameraIspSettings isp;
-    isp.balance_error = 0.04;
-    isp.cast = 0.15;
-    isp.coolest_cast = -0.3;
-    isp.warmest_cast = 0.6;
-    isp.gain = 1.3;
-    isp.gain_spread = 0.3;
-    isp.auto_brightness = 0.15;
-    isp.other_matrix = 0.3;
-    isp.curved = 0.75;
-    isp.lowest_middle = 0;
-    isp.highest_middle = 1.2;
-    isp.lowest_contrast = 1;
-    isp.highest_contrast = 1.6;
-    isp.rolled_off = 0.5;
-    isp.keeps_hue = 0.4;
-    isp.srgb = 0.55;
-    isp.bt709 = 0.2;
-    isp.lowest_gamma = 1.8;
-    isp.highest_gamma = 2.4;
-    isp.lowest_saturation = 0.85;
-    isp.highest_saturation = 1.4;
-    isp.lowest_style = -0.2;
-    isp.highest_style = 0.5;
-    return isp;
+    std::vector<Matrix3> result;
+    for (std::int64_t k = 0; k < matrices.size(0); ++k)
+        result.push_back(values<Matrix3>(matrices[k]));
+    return result;
+}
+
+/// A photo of each scene; `make` gets the number of the scene and what is known of it.
+template<class Make> torch::Tensor rendered(const TestScenes& scenes, const torch::Tensor& matrices, const Make& make)
+{
+    const InterleavedImages raws(scenes.raw);
+    const auto colors = known_colors(scenes.color, matrices);
+    std::vector<torch::Tensor> photos;
+    for (std::int64_t n = 0; n < scenes.raw.size(0); ++n) {
+        const ImageView raw = raws[n];
+        const auto photo = torch::empty({ raw.height, raw.width, 3 });
+        render(make(n, RawScene{ raw, values<Vector3>(scenes.white_balance[n]), values<Matrix3>(colors[n]) }), raw,
+               { photo.data_ptr<float>(), raw.width, raw.height, 3, std::ptrdiff_t(3) * raw.width });
+        photos.push_back(photo.permute({ 2, 0, 1 }));
+    }
+    return torch::stack(photos);
 }
 
 } // namespace
@@ -221,28 +199,25 @@ torch::Tensor test_matrices(const TrainingPack& pack, int seed)
 
 torch::Tensor random_rendering(const TestScenes& scenes, const torch::Tensor& matrices, int seed)
 {
-    Randoms randoms;
-    for (std::int64_t n = 0; n < scenes.raw.size(0); ++n)
-        randoms.emplace_back(seed, kRenderingStream, n);
-    return render_random(random_test_isp(), scenes.raw, scenes.white_balance, matrices.unsqueeze(0), randoms);
+    const std::vector<Matrix3> others = matrix_list(matrices);
+    return rendered(scenes, matrices, [&](std::int64_t n, const RawScene& scene) {
+        return srisp::random_rendering(scene, others, Random(seed, kRenderingStream, n));
+    });
 }
 
 torch::Tensor fixed_rendering(const TestScenes& scenes, const torch::Tensor& matrices)
 {
-    return render_fixed(scenes.raw, scenes.white_balance, known_colors(scenes.color, matrices), torch::tensor(0.9));
+    return rendered(scenes, matrices,
+                    [](std::int64_t, const RawScene& scene) { return srisp::fixed_rendering(scene); });
 }
 
 torch::Tensor camera_rendering(const TestScenes& scenes, const torch::Tensor& matrices, int seed)
 {
-    std::vector<float> gains;
-    Randoms randoms;
-    for (std::size_t n = 0; n < scenes.camera.size(); ++n) {
-        gains.push_back(
-            static_cast<float>(draw_camera_gain(test_camera_isp(), Random(seed, kCameraGainStream, scenes.camera[n]))));
-        randoms.emplace_back(seed, kRenderingStream, n);
-    }
-    return render_camera(test_camera_isp(), scenes.raw, scenes.white_balance, known_colors(scenes.color, matrices),
-                         matrices.unsqueeze(0), torch::tensor(gains), randoms);
+    const std::vector<Matrix3> others = matrix_list(matrices);
+    return rendered(scenes, matrices, [&](std::int64_t n, const RawScene& scene) {
+        const double gain = draw_camera_gain(Random(seed, kCameraGainStream, scenes.camera[n]));
+        return srisp::camera_rendering(scene, others, gain, Random(seed, kRenderingStream, n));
+    });
 }
 
 torch::Tensor known_colors(const torch::Tensor& colors, const torch::Tensor& matrices)

@@ -6,6 +6,8 @@
 
 #include <ATen/Parallel.h>
 
+#include "rendering/test_rendering.h"
+
 namespace srisp::train {
 
 torch::Tensor inverse3x3(const torch::Tensor& matrix)
@@ -81,20 +83,10 @@ torch::Tensor inverse_smoothstep(const torch::Tensor& v)
 
 torch::Tensor dnd_rgb_to_camera()
 {
-    // XYZ → camera; numbers as in method.md, section 4.
-    const torch::Tensor xyz_to_camera =
-        torch::tensor({ 1.0234, -0.2969, -0.2266, -0.5625, 1.6328, -0.0469, -0.0703, 0.2188, 0.6406,
-                        0.4913, -0.0541, -0.0202, -0.6130, 1.3513, 0.2906,  -0.1564, 0.2151, 0.7183,
-                        0.8380, -0.2630, -0.0639, -0.2887, 1.0725, 0.2496,  -0.0627, 0.1427, 0.5438,
-                        0.6596, -0.2079, -0.0562, -0.4782, 1.3016, 0.1933,  -0.0970, 0.1581, 0.5181 },
-                      torch::kFloat64)
-            .view({ 4, 3, 3 });
-    // Linear sRGB → XYZ, D65 (IEC 61966-2-1).
-    const torch::Tensor rgb_to_xyz = torch::tensor({ 0.4124564, 0.3575761, 0.1804375, 0.2126729, 0.7151522, 0.0721750,
-                                                     0.0193339, 0.1191920, 0.9503041 },
-                                                   torch::kFloat64)
-                                         .view({ 3, 3 });
-    return row_normalized(torch::matmul(xyz_to_camera, rgb_to_xyz)).to(torch::kFloat32);
+    std::vector<torch::Tensor> matrices;
+    for (const Matrix3& matrix : srisp::dnd_rgb_to_camera())
+        matrices.push_back(torch::tensor(at::ArrayRef<float>(matrix)).view({ 3, 3 }));
+    return torch::stack(matrices);
 }
 
 torch::Tensor dnd_color_matrices(int count, Randoms& randoms)
