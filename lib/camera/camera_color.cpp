@@ -136,4 +136,23 @@ Matrix3 balanced_to_xyz(const CameraFacts& facts, const Vector3& neutral)
     return white_to_d50(product(adaptation(light, kD50), to_xyz));
 }
 
+Vector3 white_balance_of(const CameraFacts& facts, const std::array<double, 3>& means)
+{
+    Vector3 neutral = facts.as_shot_neutral;
+    if (!is_positive(neutral))
+        for (std::size_t c = 0; c < 3; ++c)
+            neutral[c] = float(means[c] / means[1]);
+    return { neutral[1] / neutral[0], 1, neutral[1] / neutral[2] };
+}
+
+Matrix3 balanced_to_srgb(const CameraFacts& facts)
+{
+    const ColorMatrix* matrix = facts.daylight_matrix();
+    const Matrix3 srgb_to_camera = matrix ? product(matrix->xyz_to_camera, kSrgbToXyz) : Matrix3{};
+    if (!matrix || std::abs(determinant(srgb_to_camera)) < 1e-9)
+        return { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+    // Rows of sRGB → camera that sum to 1 take white to white; so does the inverse.
+    return inverse(row_normalized(srgb_to_camera));
+}
+
 } // namespace srisp

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
 #include <srisp/camera.h>
 
 #include "base/colorimetry.h"
@@ -20,5 +22,12 @@ Vector3 neutral_under(const CameraFacts& facts, const Xy& light);
 /// have them. The colour matrix of a camera that has one is that of its own light, and balancing in camera RGB does
 /// the rest: so do LibRaw and dcraw. The facts must have a matrix; neutral: above 0.
 Matrix3 balanced_to_xyz(const CameraFacts& facts, const Vector3& neutral);
+
+/// Multipliers of R, G, B that make white white: by the as-shot neutral, or where there is none those that make these
+/// means of an image grey.
+Vector3 white_balance_of(const CameraFacts& facts, const std::array<double, 3>& means);
+
+/// Balanced camera RGB → linear sRGB by the matrix for daylight, rows summing to 1; where there is none, as it is.
+Matrix3 balanced_to_srgb(const CameraFacts& facts);
 
 } // namespace srisp

@@ -34,6 +34,20 @@ double ratio(double sum, std::int64_t count)
 
 } // namespace
 
+double log_brightness(ImageView image)
+{
+    constexpr double kSmallest = 1e-5;
+    double sums[3] = {};
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 3; ++c)
+                sums[c] += image.pixel(x, y)[c];
+    double sum = 0;
+    for (const double channel : sums)
+        sum += std::log(std::max(channel / (double(image.width) * image.height), kSmallest));
+    return sum / 3;
+}
+
 double psnr(ImageView result, ImageView truth)
 {
     double sum = 0;

@@ -47,12 +47,12 @@ struct MethodScore {
 
 /// One test image: a photo, the reference it was unprocessed with, and what each method made of it.
 struct ImageScore {
-    std::string image;     ///< name of the file that it is about, relative to the folder given: "a/b.dng"
-    std::string part;      ///< "top", "bottom", or "": all of it
-    std::string rendering; ///< how the photo came about: "fixed", "random", "camera", "embedded", "libraw", a
-                           ///< converter's name; "photo" where it was given
-    std::string camera;    ///< of the reference
-    std::string reference; ///< what the reference is: "left half", or a file's name
+    std::string image;         ///< name of the file that it is about, relative to the folder given: "a/b.dng"
+    std::string part;          ///< "top", "bottom", or "": all of it
+    std::string rendering;     ///< how the photo came about: "fixed", "random", "camera", "embedded", "libraw", a
+                               ///< converter's name; "photo" where it was given
+    std::string camera;        ///< of the reference
+    std::string reference;     ///< what the reference is: "left half", or a file's name
     int width = 0, height = 0; ///< pixels on which it was measured
     std::optional<Chromaticity> reference_chromaticity, truth_chromaticity;
     std::vector<std::string> notes;

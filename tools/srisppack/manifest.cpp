@@ -9,7 +9,7 @@
 #include "base/shown_text.h"
 
 #include "../common/failure.h"
-#include "csv_table.h"
+#include "../common/csv_table.h"
 
 namespace srisp::tool {
 

@@ -11,7 +11,7 @@
 #include "base/json_object.h"
 #include "base/matrix3.h"
 #include "base/shown_text.h"
-#include "csv_table.h"
+#include "../common/csv_table.h"
 
 namespace srisp::tool {
 

@@ -49,6 +49,10 @@ struct HighlightErrors {
 };
 SRISP_API HighlightErrors highlight_errors(ImageView result, ImageView truth);
 
+/// ln of an image's brightness: the mean over R, G, B of ln of the channel's mean, which is kept from 0. The difference
+/// of two says how much brighter one is: 0.1 is 10 %.
+SRISP_API double log_brightness(ImageView image);
+
 /// CIE Lab of an XYZ colour, white D65 (.95047, 1, 1.08883). [CIE 15:2004]
 SRISP_API std::array<double, 3> lab_from_xyz(const std::array<double, 3>& xyz);
 

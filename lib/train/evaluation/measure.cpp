@@ -7,20 +7,6 @@
 
 namespace srisp::train {
 
-/// Mean over R, G, B of ln of the channel's mean, which is kept from 0.
-static double log_brightness(ImageView image)
-{
-    double sums[3] = {};
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            for (int c = 0; c < 3; ++c)
-                sums[c] += image.pixel(x, y)[c];
-    double sum = 0;
-    for (const double channel : sums)
-        sum += std::log(std::max(channel / (double(image.width) * image.height), 1e-5));
-    return sum / 3;
-}
-
 void Measure::add(ImageView result, ImageView truth, std::optional<double> log_deviation)
 {
     ++crops;

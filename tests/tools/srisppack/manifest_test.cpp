@@ -7,7 +7,7 @@
 
 #include <doctest/doctest.h>
 
-#include "../../../tools/srisppack/csv_table.h"
+#include "../../../tools/common/csv_table.h"
 #include "../failure_of.h"
 #include "scratch_folder.h"
 

@@ -7,7 +7,7 @@
 #include "base/input_file.h"
 #include "base/shown_text.h"
 
-#include "../common/failure.h"
+#include "failure.h"
 
 namespace srisp::tool {
 

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "method.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+#include <srisp/apply.h>
+#include <srisp/select.h>
+#include <srisp/thumbnail.h>
+
+#include "../common/failure.h"
+#include "base/hashes.h"
+#include "base/random.h"
+#include "rendering/test_rendering.h"
+
+namespace srisp::tool {
+
+namespace {
+
+constexpr float kGamma = 2.2f;
+
+float unit_clamped(float v)
+{
+    return std::clamp(v, 0.0f, 1.0f);
+}
+
+std::string json_text(const Vector3& gains, const Matrix3* matrix)
+{
+    nlohmann::ordered_json json{ { "gamma", kGamma }, { "white_balance", gains } };
+    if (matrix)
+        json["color"] = *matrix;
+    return json.dump();
+}
+
+class GainMatch : public Method {
+public:
+    Expected<MethodResult> unprocess(const Pixels& photo, const Pixels& reference, const std::string&) const override
+    {
+        MethodResult result{ photo, {}, {} };
+        for (float& value : result.raw.rgb)
+            value = std::pow(value, kGamma);
+        const auto have = result.raw.means(), want = reference.means();
+        constexpr double kSmallestMean = 1e-6;
+        Vector3 gains; // of the forward pass, as a model's
+        for (std::size_t c = 0; c < 3; ++c)
+            gains[c] = float(std::max(have[c], kSmallestMean) / std::max(want[c], kSmallestMean));
+        for (std::size_t i = 0; i < result.raw.rgb.size(); ++i)
+            result.raw.rgb[i] = unit_clamped(result.raw.rgb[i] / gains[i % 3]);
+        result.parameters = json_text(gains, nullptr);
+        return result;
+    }
+};
+
+class Upi : public Method {
+public:
+    explicit Upi(std::uint64_t seed) : m_seed(seed) {}
+
+    Expected<MethodResult> unprocess(const Pixels& photo, const Pixels&, const std::string& key) const override
+    {
+        Random random(seeded_hash(m_seed, key));
+        Matrix3 to_camera{};
+        double sum = 0;
+        std::vector<double> weights;
+        for (std::size_t k = 0; k < m_cameras.size(); ++k)
+            sum += weights.emplace_back(random.uniform(1e-3, 1));
+        for (std::size_t k = 0; k < m_cameras.size(); ++k)
+            for (std::size_t i = 0; i < 9; ++i)
+                to_camera[i] += float(weights[k] / sum) * m_cameras[k][i];
+        const double gain = 1 / (0.8 + 0.1 * random.normal());
+        const double red = gain * random.uniform(1.9, 2.4), blue = gain * random.uniform(1.5, 1.9);
+        const Vector3 gains{ float(red), float(gain), float(blue) };
+        MethodResult result{ photo, {}, json_text(gains, &to_camera) };
+        for (std::size_t i = 0; i < result.raw.rgb.size(); i += 3) {
+            Vector3 v;
+            for (std::size_t c = 0; c < 3; ++c) // the inverse of 3v² − 2v³, then of the gamma
+                v[c] = std::pow(std::max(0.5f - std::sin(std::asin(1 - 2 * unit_clamped(photo.rgb[i + c])) / 3), 1e-8f),
+                                kGamma);
+            v = product(to_camera, v);
+            // Highlights keep what gains above 1 would take from them.
+            const float kept = std::pow(unit_clamped(((v[0] + v[1] + v[2]) / 3 - 0.9f) * 10), 2.0f);
+            for (std::size_t c = 0; c < 3; ++c)
+                result.raw.rgb[i + c] = unit_clamped(v[c] / gains[c] + v[c] * kept * std::max(1 - 1 / gains[c], 0.0f));
+        }
+        return result;
+    }
+
+private:
+    std::uint64_t m_seed;
+    std::vector<Matrix3> m_cameras = dnd_rgb_to_camera();
+};
+
+class ModelMethod : public Method {
+public:
+    explicit ModelMethod(std::shared_ptr<const Model> model) : m_model(std::move(model)) {}
+
+    Expected<MethodResult> unprocess(const Pixels& photo, const Pixels& reference, const std::string&) const override
+    {
+        const auto parameters = srisp::select(*m_model, make_thumbnail(photo.view()), make_thumbnail(reference.view()));
+        if (!parameters)
+            return parameters.error();
+        const auto applier = Applier::create(*m_model, *parameters, Direction::reverse);
+        if (!applier)
+            return applier.error();
+        MethodResult result{ Pixels(photo.width, photo.height), {}, to_json(*parameters) };
+        ApplyOptions options;
+        options.threads = 1;
+        if (const Status done = (*applier)->run(photo.view(), result.raw.mutable_view(), options); !done)
+            return done.error();
+        if (parameters->brightness_sd_ev)
+            result.log_deviation = *parameters->brightness_sd_ev * std::log(2.0f);
+        return result;
+    }
+
+private:
+    std::shared_ptr<const Model> m_model;
+};
+
+} // namespace
+
+std::unique_ptr<Method> make_gain_match()
+{
+    auto method = std::make_unique<GainMatch>();
+    method->name = "gain_match";
+    method->origin = "photo^2.2 times one gain for each channel that gives the reference's channel means";
+    return method;
+}
+
+std::unique_ptr<Method> make_upi(std::uint64_t seed)
+{
+    auto method = std::make_unique<Upi>(seed);
+    method->name = "upi";
+    method->origin = "random parameters that know neither photo nor reference (Brooks et al. 2019)";
+    return method;
+}
+
+std::unique_ptr<Method> make_model_method(std::shared_ptr<const Model> model, std::string name)
+{
+    std::string origin = "model " + model->hash();
+    auto method = std::make_unique<ModelMethod>(std::move(model));
+    method->name = std::move(name);
+    method->origin = std::move(origin);
+    return method;
+}
+
+std::vector<std::unique_ptr<Method>> load_methods(const std::vector<std::string>& baselines,
+                                                  const std::vector<std::string>& models, std::uint64_t seed)
+{
+    std::vector<std::unique_ptr<Method>> methods;
+    for (const std::string& name : baselines)
+        methods.push_back(name == "upi" ? make_upi(seed) : make_gain_match());
+    for (const std::string& path : models) {
+        auto model = require(Model::load(path));
+        std::string name = model->name();
+        const auto is_taken = [&] {
+            return std::any_of(methods.begin(), methods.end(), [&](const auto& one) { return one->name == name; });
+        };
+        for (int number = 2; is_taken(); ++number)
+            name = model->name() + " " + std::to_string(number);
+        methods.push_back(make_model_method(std::move(model), name));
+    }
+    return methods;
+}
+
+} // namespace srisp::tool
