@@ -169,6 +169,13 @@ void LabHistogram::add(ImageView raw, const std::array<float, 9>& camera_to_xyz)
     m_pixels += std::int64_t(raw.width) * raw.height;
 }
 
+void LabHistogram::add_counts(const std::vector<std::int64_t>& counts)
+{
+    for (std::size_t i = 0; i < m_counts.size(); ++i)
+        m_counts[i] += counts.at(i);
+    m_pixels += std::accumulate(counts.begin(), counts.begin() + kBins, std::int64_t(0));
+}
+
 double LabHistogram::intersection(const LabHistogram& other) const
 {
     if (m_pixels == 0 || other.m_pixels == 0)

@@ -29,10 +29,10 @@ namespace srisp {
 namespace {
 
 const char kProgram[] = "srispdecode";
-const char* const kTaskNames[] = { "reference", "noise", "trial" }; ///< by DecoderTask
+const char* const kTaskNames[] = { "reference", "noise", "preview", "trial" }; ///< by DecoderTask
 
-// A reference's answer has less than 1 MiB.
-constexpr std::size_t kMostAnswer = std::size_t(16) << 20;
+// A reference's answer has less than 1 MiB, a camera's JPEG up to some tens.
+constexpr std::size_t kMostAnswer = std::size_t(64) << 20;
 // Processor time. The slowest formats take some 10 ns a byte.
 constexpr std::uint64_t kSeconds = 5, kBytesPerSecond = 2'000'000;
 // 1 GiB of samples, the file itself, and as much again.

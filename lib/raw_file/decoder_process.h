@@ -15,6 +15,7 @@ namespace srisp {
 enum class DecoderTask {
     reference, ///< a reference (reference_bytes.h)
     noise,     ///< noise that is estimated from a RAW file (file_noise.h)
+    preview,   ///< the JPEG picture that is embedded in a RAW file (embedded_preview.h)
     trial      ///< nothing but whether LibRaw decodes the file without harm
 };
 

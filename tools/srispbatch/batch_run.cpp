@@ -165,7 +165,7 @@ private:
     /// Fills the processor with photos, until all are made, one is enough to stop, or a signal comes.
     void make_all()
     {
-        const std::size_t count = std::min<std::size_t>(photos_at_a_time(m_options), m_tasks.size());
+        const std::size_t count = std::min<std::size_t>(images_at_a_time(m_options.threads), m_tasks.size());
         std::vector<std::thread> threads;
         m_working = count;
         for (std::size_t i = 0; i < count; ++i)

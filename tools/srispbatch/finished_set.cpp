@@ -12,13 +12,13 @@
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
+#include "../common/machine_share.h"
 #include "base/hashes.h"
 #include "base/input_files.h"
 #include "base/json_text.h"
 #include "base/progress.h"
 #include "image_task.h"
 #include "manifest.h"
-#include "memory_limit.h"
 #include "settings.h"
 
 namespace srisp::tool {
@@ -137,7 +137,7 @@ std::int64_t verify_set(const BatchOptions& options)
         }
     };
     std::vector<std::thread> threads;
-    for (unsigned i = 0; i < photos_at_a_time(options); ++i)
+    for (unsigned i = 0; i < images_at_a_time(options.threads); ++i)
         threads.emplace_back(work);
     for (std::thread& thread : threads)
         thread.join();

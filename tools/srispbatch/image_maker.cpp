@@ -14,9 +14,10 @@ namespace srisp::tool {
 using nlohmann::ordered_json;
 
 ImageMaker::ImageMaker(const BatchOptions& options, const std::string& settings)
-    : m_options(options), m_settings(settings), m_gate(memory_limit(options)), m_references(most_references(options, 1))
+    : m_options(options), m_settings(settings), m_gate(memory_limit(options.memory_gb)),
+      m_references(most_references(options.memory_gb, 1))
 {
-    prepare_making(options.format, most_references(options, 1));
+    prepare_making(options.format, most_references(options.memory_gb, 1));
 }
 
 ImageMaker::Seat::Seat(ImageMaker& maker)
@@ -45,7 +46,7 @@ Expected<ordered_json> ImageMaker::Seat::make(const BatchTask& task, const std::
 
 SampledCost ImageMaker::sample(const std::vector<BatchTask>& tasks)
 {
-    const unsigned threads = photos_at_a_time(m_options);
+    const unsigned threads = images_at_a_time(m_options.threads);
     const std::size_t count = std::min<std::size_t>(tasks.size(), std::max(16u, 4 * threads));
     const TemporaryFolder folder;
     std::mutex mutex;

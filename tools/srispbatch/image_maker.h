@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "../common/machine_share.h"
+#include "../common/memory_gate.h"
 #include "image_task.h"
-#include "memory_gate.h"
-#include "memory_limit.h"
 #include "shared_references.h"
 #include "worker.h"
 

@@ -4,10 +4,13 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 
 #include <srisp/reference.h>
 
+#include "../common/machine_share.h"
 #include "base/file_bytes.h"
 #include "base/write_all.h"
 #include "reference/reference_bytes.h"
@@ -35,6 +38,13 @@ Expected<Shared> decoded(const std::string& path)
 }
 
 } // namespace
+
+std::size_t most_references(double asked_memory_gb, unsigned processes)
+{
+    constexpr std::uint64_t kEach = 1'200'000; // bytes, with what selection needs of it
+    const std::uint64_t fit = memory_limit(asked_memory_gb) / 8 / kEach / std::max(processes, 1u);
+    return std::size_t(std::clamp<std::uint64_t>(fit, 8, 100'000));
+}
 
 SharedReference::~SharedReference()
 {

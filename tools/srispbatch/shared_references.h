@@ -24,6 +24,9 @@ private:
     int m_file;
 };
 
+/// How many references each of so many processes keeps: an eighth of the memory that there is for images goes to them.
+std::size_t most_references(double asked_memory_gb, unsigned processes);
+
 /// Decodes references for all workers, each once; those that were used last are kept. Threads: safe.
 class SharedReferences {
 public:

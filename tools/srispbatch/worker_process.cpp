@@ -8,7 +8,7 @@
 #include <exception>
 #include <new>
 
-#include "memory_limit.h"
+#include "../common/machine_share.h"
 #include "messages.h"
 #include "shared_references.h"
 #include "task_message.h"
@@ -36,7 +36,7 @@ void limit_memory(const BatchOptions& options, std::uint64_t bytes)
     rlimit limit{};
     if (::getrlimit(RLIMIT_DATA, &limit) != 0)
         return;
-    limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, rlim_t(std::max(memory_limit(options), bytes)) + kOwn);
+    limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, rlim_t(std::max(memory_limit(options.memory_gb), bytes)) + kOwn);
     ::setrlimit(RLIMIT_DATA, &limit);
 }
 
@@ -68,7 +68,7 @@ void serve_tasks(const BatchOptions& options)
 {
     follow_the_other_process();
     limit_memory(options, 0);
-    prepare_making(options.format, most_references(options, photos_at_a_time(options)));
+    prepare_making(options.format, most_references(options.memory_gb, images_at_a_time(options.threads)));
     // What a library prints on stdout is none of the answers.
     const int to = ::dup(STDOUT_FILENO);
     ::dup2(STDERR_FILENO, STDOUT_FILENO);

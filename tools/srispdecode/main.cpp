@@ -2,6 +2,7 @@
 // Decodes RAW files for the programs of srisp, so that what these files do to LibRaw is done to nobody else.
 #include "noise/file_noise.h"
 #include "raw_file/decoder_process.h"
+#include "reference/embedded_preview.h"
 #include "reference/libraw_trial.h"
 #include "reference/raw_reference.h"
 #include "reference/reference_bytes.h"
@@ -14,6 +15,8 @@ static Expected<std::string> decode(DecoderTask task, const std::string& path)
         const Status tried = try_libraw(path);
         return tried ? Expected<std::string>("") : tried.error();
     }
+    if (task == DecoderTask::preview)
+        return embedded_preview(path, false);
     if (task == DecoderTask::noise) {
         const auto noise = estimate_file_noise(path, false);
         return noise ? Expected<std::string>(bytes_of_noise(*noise)) : noise.error();

@@ -14,6 +14,8 @@ const std::vector<Metric>& metrics()
         { key::kDeltaE, "ΔE2000", "", 2, Better::lower,
           "mean CIEDE2000 difference under the camera's matrix, which tells colour and brightness as seen" },
         { key::kLab, "Lab intersection", "", 3, Better::higher, "part that the Lab histograms of both have in common" },
+        { key::kLabPooled, "Lab, all images", "", 3, Better::higher,
+          "the same of the histograms over all images together, as the paper has it" },
         { key::kBrightness, "ln mean error", "", 3, Better::near_zero,
           "error of the brightness: 0.1 is 10 % too bright" },
         { key::kHighlights, "highlights", "", 3, Better::near_zero, "mean error where the truth is above 0.8" },

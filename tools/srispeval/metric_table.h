@@ -21,6 +21,7 @@ constexpr char kSsim[] = "ssim";
 constexpr char kAngle[] = "angle_degrees";
 constexpr char kDeltaE[] = "delta_e2000";
 constexpr char kLab[] = "lab_intersection";
+constexpr char kLabPooled[] = "lab_intersection_all_images";
 constexpr char kHighlights[] = "highlight_error";
 constexpr char kHighlightsAtGain[] = "highlight_error_at_gain";
 constexpr char kBrightness[] = "ln_mean_error";

@@ -73,6 +73,11 @@ public:
     /// empty.
     double intersection(const LabHistogram& other) const;
 
+    /// How often each bin occurs: those of L, a, b, one after the other.
+    const std::vector<std::int64_t>& counts() const { return m_counts; }
+    /// Adds what another one counted. `counts`: as that gives them.
+    void add_counts(const std::vector<std::int64_t>& counts);
+
 private:
     static constexpr int kBins = 512;
     std::vector<std::int64_t> m_counts = std::vector<std::int64_t>(3 * kBins);

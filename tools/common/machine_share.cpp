@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "memory_limit.h"
+#include "machine_share.h"
 
 #include <unistd.h>
 
@@ -30,21 +30,14 @@ std::uint64_t memory_here()
 
 } // namespace
 
-std::uint64_t memory_limit(const BatchOptions& options)
+std::uint64_t memory_limit(double asked_gb)
 {
-    return options.memory_gb > 0 ? std::uint64_t(options.memory_gb * 1e9) : memory_here() / 4;
+    return asked_gb > 0 ? std::uint64_t(asked_gb * 1e9) : memory_here() / 4;
 }
 
-std::size_t most_references(const BatchOptions& options, unsigned processes)
+unsigned images_at_a_time(int asked)
 {
-    constexpr std::uint64_t kEach = 1'200'000; // bytes, with what selection needs of it
-    const std::uint64_t fit = memory_limit(options) / 8 / kEach / std::max(processes, 1u);
-    return std::size_t(std::clamp<std::uint64_t>(fit, 8, 100'000));
-}
-
-unsigned photos_at_a_time(const BatchOptions& options)
-{
-    return options.threads > 0 ? unsigned(options.threads) : std::max(std::thread::hardware_concurrency(), 1u);
+    return asked > 0 ? unsigned(asked) : std::max(std::thread::hardware_concurrency(), 1u);
 }
 
 } // namespace srisp::tool

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+#include <srisp/expected.h>
+
+#include "scores.h"
+
+// Scores as JSON (format srisp-scores-1) and CSV. Numbers without a value are null, in CSV empty.
+
+namespace srisp::tool {
+
+nlohmann::ordered_json to_json(const ImageScore& image);
+/// Error: what is missing or of a wrong type, without where.
+Expected<ImageScore> image_score_from_json(const nlohmann::json& json);
+
+/// Everything; `indent` < 0: on one line.
+std::string to_json(const Evaluation& evaluation, int indent = 1);
+
+/// What `compare` needs of such a file: methods and images. Errors: `'a.json': reason`.
+Expected<Evaluation> read_evaluation(const std::string& path);
+
+/// One line for each image and method.
+std::string to_csv(const Evaluation& evaluation);
+
+} // namespace srisp::tool
