@@ -49,6 +49,11 @@ srisp_image_tool(srispbatch srisp_base srisp_recipe srisp_reference srisp_result
 target_link_libraries(srispbatch_parts PUBLIC srisp_static) # its public headers
 srisp_man_page(srispbatch --help)
 
+srisp_image_tool(srispeval srisp_base srisp_camera srisp_recipe srisp_thumbnail srisp_reference srisp_result
+    srisp_rendering)
+target_link_libraries(srispeval_parts PUBLIC srisp_static) # its public headers
+srisp_man_page(srispeval --help)
+
 # Started by the others, so it is no command of users'. Of the libraries that its own link it needs few, and each costs
 # time to load: OpenImageIO alone, whose two hundred it does not call, a third of a second.
 add_executable(srispdecode srispdecode/main.cpp)

@@ -9,10 +9,17 @@ function(srisp_install_trainer_tool name)
     endif()")
 endfunction()
 
-add_executable(srispeval srispeval/main.cpp)
-target_link_libraries(srispeval PRIVATE srisp_train srisp_tools_common)
-target_precompile_headers(srispeval REUSE_FROM srisp_train)
-srisp_install_trainer_tool(srispeval)
+# What srispeval starts for packs; where the trainer is built alone, it is srispeval.
+add_executable(srispeval_pack srispeval_pack/main.cpp)
+target_link_libraries(srispeval_pack PRIVATE srisp_train srisp_tools_common)
+target_precompile_headers(srispeval_pack REUSE_FROM srisp_train)
+if(SRISP_TRAINER_ONLY)
+    set_target_properties(srispeval_pack PROPERTIES OUTPUT_NAME srispeval)
+    srisp_install_trainer_tool(srispeval_pack)
+else()
+    set_target_properties(srispeval_pack PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/libexec/srisp)
+    install(TARGETS srispeval_pack DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/srisp OPTIONAL)
+endif()
 
 add_custom_target(srisp_commit BYPRODUCTS ${CMAKE_CURRENT_BINARY_DIR}/srisp_commit.h
     COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR} -DOUTPUT=${CMAKE_CURRENT_BINARY_DIR}/srisp_commit.h

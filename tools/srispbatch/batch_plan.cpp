@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 /// Photos that belong together: one, or the frames of a shot. Places in the list of photos.
 using Group = std::vector<std::size_t>;
 
-std::vector<Group> groups_of(const std::vector<Photo>& photos, bool hold)
+std::vector<Group> groups_of(const std::vector<ListedFile>& photos, bool hold)
 {
     std::vector<Group> groups;
     std::unordered_map<std::string, std::size_t> of_folder;
@@ -34,7 +34,7 @@ std::vector<Group> groups_of(const std::vector<Photo>& photos, bool hold)
 /// By the sizes of files, unless all shards together would look at too many of them: a file system that many machines
 /// share answers some ten thousand such questions a second. Then there are so many photos that their numbers do as
 /// well.
-std::vector<std::uint64_t> shards_of(const std::vector<Group>& groups, const std::vector<Photo>& photos,
+std::vector<std::uint64_t> shards_of(const std::vector<Group>& groups, const std::vector<ListedFile>& photos,
                                      std::uint64_t count)
 {
     constexpr std::uint64_t kMostLooks = 5'000'000;
@@ -51,21 +51,21 @@ std::vector<std::uint64_t> shards_of(const std::vector<Group>& groups, const std
     return assign_shards(items, count);
 }
 
-std::string output_name(const Photo& photo, std::size_t copy, std::size_t copies, const BatchOptions& options)
+std::string output_name(const ListedFile& photo, std::size_t copy, std::size_t copies, const BatchOptions& options)
 {
     fs::path name(photo.name);
     name.replace_extension();
     return name.string() + (copies > 1 ? "_" + std::to_string(copy) : "") + "." + format_name(options.format);
 }
 
-std::uint64_t seed_of(const Photo& photo, std::size_t copy, const BatchOptions& options)
+std::uint64_t seed_of(const ListedFile& photo, std::size_t copy, const BatchOptions& options)
 {
     return seeded_hash(options.seed, photo.name + "\n" + std::to_string(copy));
 }
 
 } // namespace
 
-BatchPlan plan_batch(const std::vector<Photo>& photos, const ReferenceSet& references, const BatchOptions& options)
+BatchPlan plan_batch(const std::vector<ListedFile>& photos, const ReferenceSet& references, const BatchOptions& options)
 {
     BatchPlan plan;
     std::unordered_map<std::string, const std::string*> photo_of_output;
@@ -76,7 +76,7 @@ BatchPlan plan_batch(const std::vector<Photo>& photos, const ReferenceSet& refer
         const std::vector<std::string> chosen = references.of(photos[first], first, options);
         for (const std::size_t place : groups[g])
             for (std::size_t copy = 0; copy < chosen.size(); ++copy) {
-                const Photo& photo = photos[place];
+                const ListedFile& photo = photos[place];
                 BatchTask task;
                 task.output = output_name(photo, copy, chosen.size(), options);
                 const auto [same, is_new] = photo_of_output.emplace(task.output, &photo.name);

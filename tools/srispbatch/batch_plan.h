@@ -9,20 +9,20 @@
 
 #include <srisp/parameters.h>
 
+#include "../common/file_list.h"
 #include "batch_options.h"
-#include "photo_list.h"
 #include "reference_set.h"
 
 namespace srisp::tool {
 
 /// One file to be made.
 struct BatchTask {
-    Photo photo;
+    ListedFile photo;
     int copy = 0;
     std::string reference;
     std::uint64_t seed = 0;                       ///< of noise, a sampled brightness and a random crop
     std::string output;                           ///< relative to the output folder
-    std::optional<Photo> shot;                    ///< the photo whose parameters hold, where folders are shots
+    std::optional<ListedFile> shot;               ///< the photo whose parameters hold, where folders are shots
     std::uint64_t shot_seed = 0;                  ///< its seed
     std::shared_ptr<const Parameters> parameters; ///< recorded ones, instead of chosen ones; null: none
 };
@@ -38,6 +38,7 @@ struct BatchPlan {
 /// seed, the photo's name and the copy's number alone; where folders are shots, on their first photo's name. Which
 /// shard it belongs to: assign_shards. Throws Failure: two photos whose results would have one name; those of
 /// ReferenceSet::of.
-BatchPlan plan_batch(const std::vector<Photo>& photos, const ReferenceSet& references, const BatchOptions& options);
+BatchPlan plan_batch(const std::vector<ListedFile>& photos, const ReferenceSet& references,
+                     const BatchOptions& options);
 
 } // namespace srisp::tool

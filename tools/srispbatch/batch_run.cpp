@@ -59,7 +59,7 @@ std::string reason_of(const std::string& message)
 /// What the set is to have, checked.
 BatchPlan plan_of(const BatchOptions& options, std::int64_t& photo_count)
 {
-    const std::vector<Photo> photos = list_photos(options.photos, options.match, options.output);
+    const std::vector<ListedFile> photos = list_files(options.photos, photo_files(), options.match, options.output);
     photo_count = std::int64_t(photos.size());
     const ReferenceSet references = ReferenceSet::read(options.reference);
     if (references.has_pairs() && options.pairing_given && options.pairing != Pairing::csv)

@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include "../common/failure.h"
+#include "../common/file_list.h"
 #include "../common/interrupt.h"
 #include "base/hashes.h"
 #include "base/named_output.h"
-#include "photo_list.h"
 
 namespace srisp::tool {
 
@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Whether it was copied: not where the same is there.
-bool copy_file(const Photo& file, const fs::path& target, bool overwrite)
+bool copy_file(const ListedFile& file, const fs::path& target, bool overwrite)
 {
     std::error_code error;
     if (fs::exists(target, error)) {
@@ -45,7 +45,7 @@ bool copy_file(const Photo& file, const fs::path& target, bool overwrite)
 std::int64_t copy_files(const BatchOptions& options, const std::set<std::string>& results)
 {
     std::int64_t copied = 0;
-    for (const Photo& file : list_companions(options.photos, options.copy, options.output)) {
+    for (const ListedFile& file : list_companions(options.photos, options.copy, options.output)) {
         check_interrupt();
         if (results.count(file.name))
             fail_usage("--copy: '" + file.path + "' would be copied onto a result");

@@ -114,7 +114,7 @@ void ReferenceSet::read_csv(const std::string& path)
         fail("references '" + path + "' names none");
 }
 
-std::vector<std::string> ReferenceSet::of(const Photo& photo, std::size_t place, const BatchOptions& options) const
+std::vector<std::string> ReferenceSet::of(const ListedFile& photo, std::size_t place, const BatchOptions& options) const
 {
     std::vector<std::string> chosen;
     if (has_pairs()) {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "../common/file_list.h"
 #include "batch_options.h"
-#include "photo_list.h"
 
 namespace srisp::tool {
 
@@ -25,7 +25,7 @@ public:
 
     /// One reference for each result of a photo. `place`: of the photo in the sorted list, for Pairing::round_robin.
     /// Throws Failure: a photo that the CSV file does not name.
-    std::vector<std::string> of(const Photo& photo, std::size_t place, const BatchOptions& options) const;
+    std::vector<std::string> of(const ListedFile& photo, std::size_t place, const BatchOptions& options) const;
 
 private:
     void read_csv(const std::string& path);

@@ -14,7 +14,7 @@ namespace {
 using Kept = std::shared_ptr<const Parameters>;
 
 /// As the result records them.
-Expected<Kept> chosen(const Photo& first, const std::string& reference, std::uint64_t seed, Options options)
+Expected<Kept> chosen(const ListedFile& first, const std::string& reference, std::uint64_t seed, Options options)
 {
     options.seed = seed;
     options.mosaic.reset();
@@ -31,7 +31,7 @@ Expected<Kept> chosen(const Photo& first, const std::string& reference, std::uin
 
 } // namespace
 
-Expected<Parameters> shot_parameters(const Photo& first, const std::string& reference, std::uint64_t seed,
+Expected<Parameters> shot_parameters(const ListedFile& first, const std::string& reference, std::uint64_t seed,
                                      const Options& options)
 {
     constexpr std::size_t kMostShots = 64;

@@ -19,7 +19,7 @@ std::uint64_t number(const std::string& text)
 Message task_message(const WorkerTask& made)
 {
     const BatchTask& task = made.task;
-    const Photo shot = task.shot.value_or(Photo());
+    const ListedFile shot = task.shot.value_or(ListedFile());
     return { task.photo.path,
              task.photo.name,
              std::to_string(task.copy),
@@ -46,7 +46,7 @@ std::optional<WorkerTask> task_of_message(const Message& message)
     task.seed = number(message[4]);
     task.output = message[5];
     if (!message[6].empty())
-        task.shot = Photo{ message[6], message[7] };
+        task.shot = ListedFile{ message[6], message[7] };
     task.shot_seed = number(message[8]);
     made.path = message[9];
     made.reference = message[10];

@@ -9,11 +9,21 @@
 
 namespace srisp::tool {
 
+double pooled(const PerFile& files, const FileCounts& counts)
+{
+    double sum = 0, weight = 0;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        sum += counts[i] * files[i].sum;
+        weight += counts[i] * files[i].weight;
+    }
+    return sum / weight;
+}
+
 Bootstrap::Bootstrap(std::size_t files, std::uint64_t seed) : m_files(files)
 {
     if (files < 2)
         return;
-    m_draws.assign(kResamples, std::vector<std::uint16_t>(files));
+    m_draws.assign(kResamples, FileCounts(files));
     for (std::size_t k = 0; k < m_draws.size(); ++k) {
         Random random(seed, k);
         for (std::size_t i = 0; i < files; ++i)

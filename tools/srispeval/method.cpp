@@ -162,4 +162,21 @@ std::vector<std::unique_ptr<Method>> load_methods(const std::vector<std::string>
     return methods;
 }
 
+std::set<std::string> cameras_seen(const std::vector<std::string>& models, const std::set<std::string>& cameras)
+{
+    std::set<std::string> seen;
+    for (const std::string& path : models) {
+        const auto model = require(Model::load(path));
+        const auto data = model->metadata().find("train_data"); // as srisptrain writes it
+        const std::size_t raws =
+            data == model->metadata().end() ? std::string::npos : data->second.find("RAW images: ");
+        if (raws == std::string::npos)
+            continue;
+        for (const std::string& camera : cameras)
+            if (data->second.find(" " + camera + " (", raws) != std::string::npos)
+                seen.insert(camera);
+    }
+    return seen;
+}
+
 } // namespace srisp::tool

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -48,5 +49,8 @@ std::unique_ptr<Method> make_model_method(std::shared_ptr<const Model> model, st
 /// The baselines, then the models: names or paths. Names are made different where files have one name. Throws Failure.
 std::vector<std::unique_ptr<Method>> load_methods(const std::vector<std::string>& baselines,
                                                   const std::vector<std::string>& models, std::uint64_t seed);
+
+/// Those of the cameras whose RAW images one of the models says it was trained on.
+std::set<std::string> cameras_seen(const std::vector<std::string>& models, const std::set<std::string>& cameras);
 
 } // namespace srisp::tool

@@ -15,20 +15,6 @@ namespace {
 constexpr std::uint64_t kSeed = 1;
 
 using Images = std::vector<const ImageScore*>;
-using Counts = std::vector<std::uint16_t>;
-
-/// What the images of each file add up to.
-using PerFile = std::vector<Measured>;
-
-double pooled(const PerFile& files, const Counts& counts)
-{
-    double sum = 0, weight = 0;
-    for (std::size_t i = 0; i < files.size(); ++i) {
-        sum += counts[i] * files[i].sum;
-        weight += counts[i] * files[i].weight;
-    }
-    return sum / weight;
-}
 
 class Group {
 public:
@@ -92,7 +78,7 @@ private:
 
     Interval mean(const PerFile& files) const
     {
-        return m_bootstrap.interval([&](const Counts& counts) { return pooled(files, counts); });
+        return m_bootstrap.interval([&](const FileCounts& counts) { return pooled(files, counts); });
     }
 
     MethodSummary of_method(const std::string& method) const
@@ -107,7 +93,7 @@ private:
             const PerFile base = of_metric(m_methods.front(), one.key);
             if (method != m_methods.front() && !is_empty(base))
                 result.over_baseline[one.key] = m_bootstrap.interval(
-                    [&](const Counts& counts) { return pooled(files, counts) - pooled(base, counts); });
+                    [&](const FileCounts& counts) { return pooled(files, counts) - pooled(base, counts); });
         }
         for (std::size_t level = 0; level < result.error_by_level.size(); ++level)
             result.error_by_level[level] =
@@ -123,7 +109,7 @@ private:
                                                                   return Measured{};
                                                               return Measured{ error->second.sum <= z ? 1.0 : 0.0, 1 };
                                                           }),
-                                                 Counts(m_files.size(), 1)));
+                                                 FileCounts(m_files.size(), 1)));
         return result;
     }
 
@@ -136,7 +122,7 @@ private:
                 return Measured{};
             return Measured{ error->second.sum * error->second.sum, error->second.weight };
         });
-        return m_bootstrap.interval([&](const Counts& counts) {
+        return m_bootstrap.interval([&](const FileCounts& counts) {
             const double average = pooled(values, counts);
             return std::sqrt(std::max(pooled(squares, counts) - average * average, 0.0));
         });

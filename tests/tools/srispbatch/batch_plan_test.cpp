@@ -14,9 +14,9 @@ using namespace srisp::tool;
 
 namespace {
 
-std::vector<Photo> some_photos(int count)
+std::vector<ListedFile> some_photos(int count)
 {
-    std::vector<Photo> photos;
+    std::vector<ListedFile> photos;
     for (int i = 0; i < count; ++i)
         photos.push_back({ "/p/" + std::to_string(i) + ".jpg", std::to_string(i) + ".jpg" });
     std::sort(photos.begin(), photos.end());

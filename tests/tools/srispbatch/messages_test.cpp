@@ -84,7 +84,7 @@ TEST_CASE("a worker is told all of a task")
     for (const bool shot : { false, true }) {
         sent.may_replace = shot;
         if (shot)
-            sent.task.shot = Photo{ "/p/0.jpg", "0.jpg" };
+            sent.task.shot = ListedFile{ "/p/0.jpg", "0.jpg" };
         sent.task.shot_seed = shot ? 7 : 0;
         const auto got = task_of_message(task_message(sent));
         REQUIRE(got);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../../../tools/srispbatch/photo_list.h"
+#include "../../../tools/common/file_list.h"
 
 #include <doctest/doctest.h>
 
@@ -12,10 +12,10 @@ using namespace srisp::tool;
 
 namespace {
 
-std::string names(const std::vector<Photo>& photos)
+std::string names(const std::vector<ListedFile>& photos)
 {
     std::string text;
-    for (const Photo& photo : photos)
+    for (const ListedFile& photo : photos)
         text += photo.name + " ";
     return text;
 }
@@ -37,9 +37,9 @@ TEST_CASE("a folder's photos are found in all folders in it, and named by where 
 {
     const ScratchFolder folder;
     const std::string set = set_in(folder);
-    CHECK(names(list_photos({ set }, "")) == "b.jpg street/far/a.PNG ");
-    CHECK(names(list_photos({ set + "/" }, "*.txt")) == "street/notes.txt ");
-    CHECK(names(list_photos({ set + "/street/far/a.PNG", set + "/*.jpg" }, "")) == "a.PNG b.jpg ");
+    CHECK(names(list_files({ set }, photo_files(), "")) == "b.jpg street/far/a.PNG ");
+    CHECK(names(list_files({ set + "/" }, photo_files(), "*.txt")) == "street/notes.txt ");
+    CHECK(names(list_files({ set + "/street/far/a.PNG", set + "/*.jpg" }, photo_files(), "")) == "a.PNG b.jpg ");
 }
 
 TEST_CASE("a list names photos, and may name one that is missing")
@@ -47,23 +47,26 @@ TEST_CASE("a list names photos, and may name one that is missing")
     const ScratchFolder folder;
     const std::string set = set_in(folder);
     const std::string list = folder.file("list.txt", set + "/b.jpg\r\n\n" + folder.path("none.jpg") + "\n");
-    CHECK(names(list_photos({ "@" + list }, "")) == "b.jpg none.jpg ");
-    CHECK(failure_of([&] { list_photos({ "@" + folder.file("empty.txt", "\n") }, ""); }).find("names no photos") !=
-          std::string::npos);
-    CHECK(failure_of([&] { list_photos({ "@" + folder.path("gone.txt") }, ""); }).find("cannot be read") !=
-          std::string::npos);
+    CHECK(names(list_files({ "@" + list }, photo_files(), "")) == "b.jpg none.jpg ");
+    CHECK(failure_of([&] {
+              list_files({ "@" + folder.file("empty.txt", "\n") }, photo_files(), "");
+          }).find("names no images") != std::string::npos);
+    CHECK(failure_of([&] {
+              list_files({ "@" + folder.path("gone.txt") }, photo_files(), "");
+          }).find("cannot be read") != std::string::npos);
 }
 
 TEST_CASE("what is not there, folders without photos and photos of one name are said")
 {
     const ScratchFolder folder;
     const std::string set = set_in(folder);
-    CHECK(failure_of([&] { list_photos({ folder.path("gone.jpg") }, ""); }).find("does not exist") !=
+    CHECK(failure_of([&] { list_files({ folder.path("gone.jpg") }, photo_files(), ""); }).find("does not exist") !=
           std::string::npos);
-    CHECK(failure_of([&] { list_photos({ set + "/street" }, "*.exr"); }).find("holds no file that fits '*.exr'") !=
-          std::string::npos);
+    CHECK(failure_of([&] {
+              list_files({ set + "/street" }, photo_files(), "*.exr");
+          }).find("holds no file that fits '*.exr'") != std::string::npos);
     folder.file("b.jpg", "");
     CHECK(failure_of([&] {
-              list_photos({ set + "/b.jpg", folder.path("b.jpg") }, "");
-          }).find("would both be 'b.jpg'") != std::string::npos);
+              list_files({ set + "/b.jpg", folder.path("b.jpg") }, photo_files(), "");
+          }).find("would both be called 'b.jpg'") != std::string::npos);
 }

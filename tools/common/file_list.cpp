@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "photo_list.h"
+#include "file_list.h"
 
 #include <fnmatch.h>
 #include <glob.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 
-#include <OpenImageIO/strutil.h>
-
-#include "../common/failure.h"
-#include "../common/interrupt.h"
+#include "failure.h"
+#include "interrupt.h"
 
 namespace srisp::tool {
 
@@ -25,7 +24,8 @@ bool is_image_name(const fs::path& path)
     static const char* const kEndings[] = { ".jpg",  ".jpeg", ".png",  ".tif", ".tiff", ".exr", ".webp",
                                             ".heic", ".heif", ".avif", ".jp2", ".bmp",  ".tga", ".ppm",
                                             ".pgm",  ".gif",  ".hdr",  ".psd", ".dpx" };
-    const std::string ending = OIIO::Strutil::lower(path.extension().string());
+    std::string ending = path.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
     return std::find(std::begin(kEndings), std::end(kEndings), ending) != std::end(kEndings);
 }
 
@@ -37,7 +37,7 @@ bool fits(const fs::path& path, const std::string& glob)
 /// Adds the files of a folder and all folders in it that `is_wanted` takes, but for what is in the folder `output`.
 /// Hidden files are not looked at: some are outputs that other programs are writing.
 template<class IsWanted> void add_files(const std::string& folder, const std::string& output, const IsWanted& is_wanted,
-                                        std::vector<Photo>& files)
+                                        std::vector<ListedFile>& files)
 {
     std::error_code error;
     fs::recursive_directory_iterator at(folder, fs::directory_options::follow_directory_symlink, error);
@@ -53,9 +53,12 @@ template<class IsWanted> void add_files(const std::string& folder, const std::st
         fail("folder '" + folder + "' cannot be listed: " + error.message());
 }
 
-class PhotoList {
+class FileList {
 public:
-    PhotoList(const std::string& match, const std::string& output) : m_match(match), m_output(output) {}
+    FileList(const FileKind& kind, const std::string& match, const std::string& output)
+        : m_kind(kind), m_match(match), m_output(output)
+    {
+    }
 
     void add_word(const std::string& word)
     {
@@ -72,29 +75,28 @@ public:
             add_glob(word);
     }
 
-    std::vector<Photo> take()
+    std::vector<ListedFile> take()
     {
-        std::sort(m_photos.begin(), m_photos.end());
-        const auto same = [](const Photo& a, const Photo& b) { return a.name == b.name && a.path == b.path; };
-        m_photos.erase(std::unique(m_photos.begin(), m_photos.end(), same), m_photos.end());
-        for (std::size_t i = 1; i < m_photos.size(); ++i)
-            if (m_photos[i].name == m_photos[i - 1].name)
-                fail_usage("'" + m_photos[i - 1].path + "' and '" + m_photos[i].path + "' would both be '" +
-                           m_photos[i].name + "' in the output folder");
-        return std::move(m_photos);
+        std::sort(m_files.begin(), m_files.end());
+        const auto same = [](const ListedFile& a, const ListedFile& b) { return a.name == b.name && a.path == b.path; };
+        m_files.erase(std::unique(m_files.begin(), m_files.end(), same), m_files.end());
+        for (std::size_t i = 1; i < m_files.size(); ++i)
+            if (m_files[i].name == m_files[i - 1].name)
+                fail_usage("'" + m_files[i - 1].path + "' and '" + m_files[i].path + "' would both be called '" +
+                           m_files[i].name + "'");
+        return std::move(m_files);
     }
 
 private:
     void add_folder(const std::string& folder)
     {
-        const std::size_t before = m_photos.size();
+        const std::size_t before = m_files.size();
         add_files(
             folder, m_output,
-            [&](const fs::path& path) { return m_match.empty() ? is_image_name(path) : fits(path, m_match); },
-            m_photos);
-        if (m_photos.size() == before)
+            [&](const fs::path& path) { return m_match.empty() ? m_kind.is_one(path) : fits(path, m_match); }, m_files);
+        if (m_files.size() == before)
             fail("folder '" + folder + "' holds no " +
-                 (m_match.empty() ? "images" : "file that fits '" + m_match + "'"));
+                 (m_match.empty() ? m_kind.several : "file that fits '" + m_match + "'"));
     }
 
     /// A relative path keeps its folders, unless they lead out.
@@ -102,7 +104,7 @@ private:
     {
         const fs::path plain = fs::path(path).lexically_normal();
         const bool leads_out = plain.is_absolute() || *plain.begin() == "..";
-        m_photos.push_back({ path, leads_out ? plain.filename().string() : plain.string() });
+        m_files.push_back({ path, leads_out ? plain.filename().string() : plain.string() });
     }
 
     void add_glob(const std::string& pattern)
@@ -113,7 +115,7 @@ private:
             add_file(found.gl_pathv[i]);
         ::globfree(&found);
         if (failed)
-            fail("photo '" + pattern + "' does not exist");
+            fail(m_kind.one + " '" + pattern + "' does not exist");
     }
 
     void add_list(const std::string& path)
@@ -140,28 +142,35 @@ private:
                 add_file(line);
         }
         if (count == 0)
-            fail("list '" + where + "' names no photos");
+            fail("list '" + where + "' names no " + m_kind.several);
     }
 
+    const FileKind& m_kind;
     std::string m_match, m_output;
-    std::vector<Photo> m_photos;
+    std::vector<ListedFile> m_files;
 };
 
 } // namespace
 
-std::vector<Photo> list_photos(const std::vector<std::string>& words, const std::string& match,
-                               const std::string& output)
+const FileKind& photo_files()
 {
-    PhotoList list(match, output);
+    static const FileKind kind{ "photo", "images", is_image_name };
+    return kind;
+}
+
+std::vector<ListedFile> list_files(const std::vector<std::string>& words, const FileKind& kind,
+                                   const std::string& match, const std::string& output)
+{
+    FileList list(kind, match, output);
     for (const std::string& word : words)
         list.add_word(word);
     return list.take();
 }
 
-std::vector<Photo> list_companions(const std::vector<std::string>& words, const std::vector<std::string>& globs,
-                                   const std::string& output)
+std::vector<ListedFile> list_companions(const std::vector<std::string>& words, const std::vector<std::string>& globs,
+                                        const std::string& output)
 {
-    std::vector<Photo> files;
+    std::vector<ListedFile> files;
     bool folders = false;
     for (const std::string& word : words) {
         std::error_code error;

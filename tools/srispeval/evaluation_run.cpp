@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluation_run.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+#include <srisp/metrics.h>
+
+#include "../common/failure.h"
+#include "../common/interrupt.h"
+#include "../common/machine_share.h"
+#include "../common/memory_gate.h"
+#include "base/hashes.h"
+#include "base/input_files.h"
+#include "base/output_file.h"
+#include "base/progress.h"
+#include "journal.h"
+#include "metric_table.h"
+#include "score_json.h"
+#include "score_table.h"
+#include "shown_images.h"
+#include "summary.h"
+
+namespace srisp::tool {
+
+namespace {
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// What the results depend on beside the files, as the report tells it.
+Settings settings_of(const EvalOptions& options, const Methods& methods)
+{
+    Settings settings;
+    for (const auto& method : methods)
+        settings.emplace_back("method " + method->name, method->origin);
+    settings.emplace_back("size", options.size ? "longer side at most " + std::to_string(options.size) +
+                                                     " pixels, by averaging areas"
+                                               : "full");
+    settings.emplace_back("seed", std::to_string(options.seed));
+    if (options.job == EvalOptions::Job::unpaired)
+        settings.emplace_back("references of each photo", std::to_string(options.reference_count));
+    else
+        settings.emplace_back("edits", std::to_string(options.edits));
+    if (options.job == EvalOptions::Job::half_split) {
+        std::string names;
+        for (const std::string& name : options.renderings)
+            names += (names.empty() ? "" : ", ") + name;
+        settings.emplace_back("renderings", names);
+    }
+    return settings;
+}
+
+/// Where the report's numbers come from, for readers.
+std::vector<std::string> measures_text()
+{
+    return {
+        "PSNR, SSIM and angle are those of linear values, clamped to 0 … 1, peak 1; pixels without a colour (a norm "
+        "below 1e-6) are left out of the angle. Lab and ΔE2000 use the inverse of the camera's XYZ matrix for "
+        "daylight. PSNR ends at 100 dB.",
+        "Intervals hold 95 %: the bootstrap's 2.5th and 97.5th percentile over 1000 draws of files, not of images, "
+        "since what several images of one file show is no independent evidence. Differences to the first method "
+        "are drawn together with it.",
+        "PSNRs that other programs publish cannot be compared with these: how a test renders its photos decides the "
+        "score."
+    };
+}
+
+/// Runs tasks on several threads, each result into the journal.
+class Runner {
+public:
+    Runner(const EvalOptions& options, const Protocol& protocol, const Methods& methods, int picture_size,
+           Journal& journal)
+        : m_options(options), m_protocol(protocol), m_methods(methods), m_pictures{ picture_size }, m_journal(journal),
+          m_gate(memory_limit(options.memory_gb)), m_meter(work(protocol, journal), !options.quiet)
+    {
+        for (const EvalTask& task : protocol.tasks)
+            if (!journal.tasks().count(key_of(task)))
+                m_waiting.push_back(&task);
+        m_done = protocol.tasks.size() - m_waiting.size();
+    }
+
+    static std::string key_of(const EvalTask& task) { return task.name + "\n" + task.state; }
+
+    /// What could not be tested.
+    std::vector<LeftOut> run()
+    {
+        const std::size_t count = std::min<std::size_t>(images_at_a_time(m_options.threads), m_waiting.size());
+        std::vector<std::thread> threads;
+        for (std::size_t i = 0; i < count; ++i)
+            threads.emplace_back([this] { work_on(); });
+        for (std::thread& thread : threads)
+            thread.join();
+        m_meter.wipe();
+        if (m_failure)
+            throw *m_failure;
+        return std::move(m_left_out);
+    }
+
+private:
+    static WorkCount work(const Protocol& protocol, const Journal& journal)
+    {
+        return { "srispeval", protocol.has_truth ? "RAW files" : "photos", std::int64_t(protocol.tasks.size()),
+                 std::int64_t(std::min(journal.tasks().size(), protocol.tasks.size())) };
+    }
+
+    void work_on()
+    {
+        for (std::size_t i = m_next++; i < m_waiting.size() && !pending_interrupt(); i = m_next++) {
+            const EvalTask& task = *m_waiting[i];
+            std::vector<EvaluatedImage> images;
+            std::vector<LeftOut> left_out;
+            try {
+                evaluate(task, images, left_out);
+            } catch (const std::exception& error) {
+                left_out.push_back({ task.name, error.what() });
+            }
+            const std::lock_guard lock(m_mutex);
+            if (m_failure || (pending_interrupt() && images.empty()))
+                return;
+            try {
+                if (!images.empty())
+                    m_journal.append(key_of(task), images);
+            } catch (const Failure& failure) {
+                m_failure = failure;
+                m_next = m_waiting.size();
+            }
+            m_left_out.insert(m_left_out.end(), left_out.begin(), left_out.end());
+            m_meter.show(std::int64_t(++m_done));
+        }
+    }
+
+    void evaluate(const EvalTask& task, std::vector<EvaluatedImage>& images, std::vector<LeftOut>& left_out)
+    {
+        std::optional<MemoryGate::Pass> pass;
+        auto made = task.make([&](std::uint64_t bytes) { pass.emplace(m_gate, bytes); });
+        if (!made) {
+            left_out.push_back({ task.name, made.error().message });
+            return;
+        }
+        pass.reset();
+        left_out = std::move(made->left_out);
+        for (const TestImage& image : made->images) {
+            auto evaluated = evaluate_image(image, m_methods, { m_options.edits, m_options.seed }, m_pictures);
+            if (!evaluated) {
+                left_out.push_back(
+                    { task.name, image.score.rendering + " " + image.score.part + ": " + evaluated.error().message });
+                continue;
+            }
+            images.push_back(std::move(*evaluated));
+        }
+        if (m_protocol.ranks)
+            add_rank_correlations(images, m_methods);
+    }
+
+    const EvalOptions& m_options;
+    const Protocol& m_protocol;
+    const Methods& m_methods;
+    const PictureSettings m_pictures;
+    Journal& m_journal;
+    MemoryGate m_gate;
+    std::vector<const EvalTask*> m_waiting;
+    std::atomic<std::size_t> m_next{ 0 };
+
+    std::mutex m_mutex; ///< of what follows
+    ProgressMeter m_meter;
+    std::size_t m_done = 0;
+    std::vector<LeftOut> m_left_out;
+    std::optional<Failure> m_failure;
+};
+
+/// The paper's histogram intersection, over all images of each rendering together.
+void add_pooled_lab(const Journal& journal, const std::vector<const Journal::Entry*>& entries,
+                    std::vector<GroupSummary>& groups)
+{
+    std::map<std::pair<std::string, std::string>, std::pair<LabHistogram, LabHistogram>> histograms;
+    for (const Journal::Entry* entry : entries)
+        for (const auto& [method, counts] : journal.lab(*entry)) {
+            auto& [result, wanted] = histograms[{ entry->score.rendering, method }];
+            result.add_counts(counts.result);
+            wanted.add_counts(counts.wanted);
+        }
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    for (GroupSummary& group : groups)
+        for (MethodSummary& method : group.methods) {
+            const auto found = histograms.find({ group.rendering, method.method });
+            if (group.camera.empty() && found != histograms.end())
+                method.values[key::kLabPooled] = { found->second.first.intersection(found->second.second), kNone,
+                                                   kNone };
+        }
+}
+
+/// The journal's images in the order of the tasks.
+std::vector<const Journal::Entry*> entries_in_order(const Journal& journal, const Protocol& protocol)
+{
+    std::map<std::string, std::vector<const Journal::Entry*>> by_task;
+    for (const Journal::Entry& entry : journal.entries())
+        by_task[entry.task].push_back(&entry);
+    std::vector<const Journal::Entry*> result;
+    for (const EvalTask& task : protocol.tasks)
+        if (const auto found = by_task.find(Runner::key_of(task)); found != by_task.end())
+            result.insert(result.end(), found->second.begin(), found->second.end());
+    return result;
+}
+
+void write_text(const std::string& path, const std::string& text)
+{
+    if (path == "-")
+        std::fputs(text.c_str(), stdout);
+    else if (!path.empty())
+        if (const Status written = write_output_file(path, text); !written)
+            fail("output " + written.error().message);
+}
+
+void write_html(const EvalOptions& options, const Evaluation& evaluation, const Journal& journal,
+                const std::vector<const Journal::Entry*>& entries)
+{
+    OutputFile file(options.report);
+    require(write_report(
+        evaluation, shown_images(evaluation, std::size_t(options.pictures)),
+        [&](std::size_t i) -> Expected<ImagePictures> { return journal.pictures(*entries[i]); }, file));
+    if (const Status written = file.finish(); !written)
+        fail("report " + written.error().message);
+}
+
+/// No output may take the place of an input.
+void check_outputs(const EvalOptions& options)
+{
+    InputFiles inputs;
+    for (const std::string& path : options.inputs)
+        inputs.add("input", path);
+    for (const std::string& path : options.models)
+        inputs.add("model", path);
+    for (const std::string& path : { options.report, options.json, options.csv }) {
+        if (path.empty() || path == "-")
+            continue;
+        require(inputs.check_output(path));
+        const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+        std::error_code error;
+        if (!folder.empty() && !std::filesystem::is_directory(folder, error))
+            fail("output '" + path + "' cannot be created: there is no folder '" + folder.string() + "'");
+    }
+}
+
+} // namespace
+
+int run_evaluation(const EvalOptions& options, const Protocol& protocol)
+{
+    check_outputs(options);
+    const Methods methods = load_methods(options.baselines, options.models, options.seed);
+    Evaluation evaluation;
+    evaluation.settings = settings_of(options, methods);
+    const std::size_t images = protocol.tasks.size() * std::size_t(protocol.images_per_task);
+    const int picture_size =
+        options.report.empty() ? 0 : picture_side(std::min(images, std::size_t(options.pictures)), methods.size());
+    std::string settings = std::string(SRISP_VERSION) + " " + protocol.name + " " + std::to_string(picture_size);
+    for (const auto& [name, value] : evaluation.settings)
+        settings += "\n" + name + ": " + value;
+    const std::string output = !options.report.empty() ? options.report : options.json != "-" ? options.json : "";
+    Journal journal(output.empty() ? "" : output + ".unfinished", hash_of_bytes(settings.data(), settings.size()));
+
+    evaluation.left_out = protocol.left_out;
+    const std::vector<LeftOut> left_out = Runner(options, protocol, methods, picture_size, journal).run();
+    evaluation.left_out.insert(evaluation.left_out.end(), left_out.begin(), left_out.end());
+    std::sort(evaluation.left_out.begin(), evaluation.left_out.end(),
+              [](const LeftOut& a, const LeftOut& b) { return a.file < b.file; });
+
+    const auto entries = entries_in_order(journal, protocol);
+    evaluation.protocol = protocol.name;
+    evaluation.protocol_text = protocol.text;
+    for (const std::string& text : measures_text())
+        evaluation.protocol_text.push_back(text);
+    evaluation.version = SRISP_VERSION;
+    evaluation.has_truth = protocol.has_truth;
+    evaluation.complete = !pending_interrupt();
+    for (const auto& method : methods)
+        evaluation.methods.push_back(method->name);
+    for (const Journal::Entry* entry : entries)
+        evaluation.images.push_back(entry->score);
+    for (const LeftOut& one : evaluation.left_out)
+        std::fprintf(stderr, "srispeval: left out: %s: %s\n", one.file.c_str(), one.reason.c_str());
+    if (entries.empty()) {
+        check_interrupt();
+        fail("nothing could be tested");
+    }
+    std::set<std::string> cameras;
+    for (const ImageScore& image : evaluation.images)
+        cameras.insert(image.camera);
+    evaluation.groups = summarize(evaluation.images, evaluation.methods, cameras_seen(options.models, cameras));
+    add_pooled_lab(journal, entries, evaluation.groups);
+
+    write_text(options.json, options.json.empty() ? "" : to_json(evaluation));
+    write_text(options.csv, options.csv.empty() ? "" : to_csv(evaluation));
+    if (!options.report.empty())
+        write_html(options, evaluation, journal, entries);
+    if (options.json != "-")
+        std::fputs(score_table(evaluation, options.by_camera).c_str(), stdout);
+    if (!evaluation.complete) {
+        std::fprintf(stderr, "srispeval: stopped; this is of what was done, and the same command goes on from there\n");
+        check_interrupt();
+    }
+    journal.remove();
+    return evaluation.left_out.empty() ? 0 : kExitFailed;
+}
+
+} // namespace srisp::tool

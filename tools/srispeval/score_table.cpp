@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "score_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "base/shown_text.h"
+#include "metric_table.h"
+
+namespace srisp::tool {
+
+namespace {
+
+__attribute__((format(printf, 1, 2))) std::string text(const char* format, ...)
+{
+    char buffer[512];
+    va_list arguments;
+    va_start(arguments, format);
+    std::vsnprintf(buffer, sizeof buffer, format, arguments);
+    va_end(arguments);
+    return buffer;
+}
+
+std::string number(double value, int digits)
+{
+    return std::isfinite(value) ? text("%.*f", digits, value) : "-";
+}
+
+/// "35.20 (34.1 to 36.3)"
+std::string with_interval(const Interval& value, int digits, const char* sign = "")
+{
+    std::string result =
+        std::isfinite(value.mean) ? text("%s%.*f", value.mean >= 0 ? sign : "", digits, value.mean) : "-";
+    if (std::isfinite(value.low))
+        result += " (" + number(value.low, digits) + " to " + number(value.high, digits) + ")";
+    return result;
+}
+
+bool is_within_noise(const Interval& difference)
+{
+    return std::isfinite(difference.low) && difference.low <= 0 && difference.high >= 0;
+}
+
+std::string group_title(const Evaluation& evaluation, const GroupSummary& group)
+{
+    const bool photos = !evaluation.has_truth;
+    std::string title = photos ? "photos with references" : "rendering " + shown_text(group.rendering);
+    if (!group.camera.empty())
+        title += ", " + shown_text(group.camera);
+    return title + text(": %d images of %d files, %d camera%s\n", group.images, group.files, group.cameras,
+                        group.cameras == 1 ? "" : "s");
+}
+
+std::string group_table(const Evaluation& evaluation, const GroupSummary& group)
+{
+    std::string result = group_title(evaluation, group);
+    std::size_t widest = 0;
+    for (const MethodSummary& method : group.methods)
+        widest = std::max(widest, method.method.size());
+    for (const Metric& metric : metrics()) {
+        for (const MethodSummary& method : group.methods) {
+            const auto value = method.values.find(metric.key);
+            if (value == method.values.end())
+                continue;
+            const bool first = &method == &group.methods.front();
+            std::string title = metric.title;
+            if (*metric.unit)
+                title += std::string(", ") + metric.unit;
+            // ° and Δ are two bytes wide in UTF-8.
+            const auto extra = std::count_if(title.begin(), title.end(), [](char c) { return (c & 0xc0) == 0x80; });
+            result += text("  %-*s  %-*s  %-28s", int(20 + extra), title.c_str(), int(widest), method.method.c_str(),
+                           with_interval(value->second, metric.digits).c_str());
+            const auto over = method.over_baseline.find(metric.key);
+            if (!first && over != method.over_baseline.end())
+                result += "  " + with_interval(over->second, metric.digits, "+") +
+                          (is_within_noise(over->second) ? ", within the noise" : "");
+            result.erase(result.find_last_not_of(' ') + 1);
+            result += "\n";
+        }
+    }
+    return result + "\n";
+}
+
+} // namespace
+
+std::string score_table(const Evaluation& evaluation, bool by_camera)
+{
+    std::string result;
+    for (const GroupSummary& group : evaluation.groups)
+        if (by_camera || group.camera.empty())
+            result += group_table(evaluation, group);
+    if (!evaluation.methods.empty())
+        result +=
+            "In brackets: bootstrap 95 % intervals over files. Last column: over " + evaluation.methods.front() + ".\n";
+    return result;
+}
+
+} // namespace srisp::tool

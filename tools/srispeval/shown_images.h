@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "scores.h"
+
+namespace srisp::tool {
+
+/// Which images a report shows with pictures, the worst first: by the last method's PSNR, without a truth by its Lab
+/// intersection. Where not all fit, the ten worst, and others that are evenly spread over the rest.
+std::vector<std::size_t> shown_images(const Evaluation& evaluation, std::size_t most);
+
+/// The longest side of pictures, pixels, with which so many images with so many methods make a report of 18 MB at most.
+int picture_side(std::size_t images, std::size_t methods);
+
+} // namespace srisp::tool
