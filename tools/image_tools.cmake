@@ -5,7 +5,7 @@ set(SRISP_LIBEXEC_DIR ${CMAKE_INSTALL_LIBEXECDIR}/srisp)
 # A tool: srisp_image_tool(NAME library...). All but its main.cpp is NAME_parts, which the tests link, too. The libraries are
 # the rooms that docs/architecture.md allows it.
 function(srisp_image_tool name)
-    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
     list(FILTER sources EXCLUDE REGEX "/(main|output_guard)\\.cpp$")
     add_library(${name}_parts STATIC ${sources})
     target_link_libraries(${name}_parts PUBLIC srisp_tools_common ${ARGN})
@@ -52,7 +52,20 @@ srisp_man_page(srispbatch --help)
 srisp_image_tool(srispeval srisp_base srisp_camera srisp_recipe srisp_thumbnail srisp_reference srisp_result
     srisp_rendering)
 target_link_libraries(srispeval_parts PUBLIC srisp_static) # its public headers
+target_include_directories(srispeval_parts PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/srispeval)
 srisp_man_page(srispeval --help)
+
+# The report's style sheet, page parts and scripts, in the program.
+set(report ${CMAKE_CURRENT_SOURCE_DIR}/srispeval/report)
+set(report_files report.css report_sort.js report_pictures.js report_viewer.js report_viewer.html)
+string(REPLACE ";" "," report_list "${report_files}")
+list(TRANSFORM report_files PREPEND ${report}/)
+add_custom_command(OUTPUT report_assets.cpp
+    COMMAND ${CMAKE_COMMAND} -DSOURCE=${report} -DFILES=${report_list} -DOUTPUT=report_assets.cpp
+        -P ${report}/embed.cmake
+    DEPENDS ${report_files} ${report}/embed.cmake VERBATIM)
+target_sources(srispeval_parts PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/report_assets.cpp)
+target_include_directories(srispeval_parts PRIVATE ${report})
 
 # Started by the others, so it is no command of users'. Of the libraries that its own link it needs few, and each costs
 # time to load: OpenImageIO alone, whose two hundred it does not call, a third of a second.

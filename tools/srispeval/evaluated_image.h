@@ -10,7 +10,7 @@
 
 #include "measure.h"
 #include "method.h"
-#include "report_page.h"
+#include "report/report_page.h"
 #include "test_image.h"
 
 namespace srisp::tool {

@@ -5,7 +5,7 @@
 
 #include "pixels.h"
 #include "raw_picture.h"
-#include "report_page.h"
+#include "report/report_page.h"
 #include "scores.h"
 
 namespace srisp::tool {
