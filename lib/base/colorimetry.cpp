@@ -1,7 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/colorimetry.h"
 
+#include <cmath>
+
 namespace srisp {
+
+double srgb_curve(double linear)
+{
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+double srgb_curve_back(double encoded)
+{
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
 
 Vector3 xyz_of(const Xy& xy)
 {

@@ -29,6 +29,10 @@ inline Xy white_of(const Chromaticities& c)
     return { c[6], c[7] };
 }
 
+/// sRGB's encoding of a linear value, and back; from 0 on. [IEC 61966-2-1]
+double srgb_curve(double linear);
+double srgb_curve_back(double encoded);
+
 /// XYZ of the colour with this xy and Y = 1; y must not be 0.
 Vector3 xyz_of(const Xy& xy);
 

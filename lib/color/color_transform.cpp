@@ -4,19 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/colorimetry.h"
+
 namespace srisp {
 
 namespace {
-
-double srgb_curve(double v)
-{
-    return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-}
-
-double srgb_curve_back(double v)
-{
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
 
 /// Encoded values of one pixel, from its linear light; returns how many were clipped.
 int encode(const Matrix3& matrix, const float linear[3], float* rgb)

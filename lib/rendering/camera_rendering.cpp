@@ -94,7 +94,7 @@ float encoded(float v, float kind)
         return std::pow(std::max(v, 1e-8f), 1 / kind);
     if (kind < 0)
         return v < 0.018f ? 4.5f * v : 1.099f * std::pow(v, 0.45f) - 0.099f;
-    return srgb_encoded(v);
+    return float(srgb_curve(v));
 }
 
 float draw_encoding(Random random)

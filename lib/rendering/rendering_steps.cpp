@@ -7,11 +7,6 @@
 
 namespace srisp {
 
-float srgb_encoded(float linear)
-{
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-
 float quantile(std::vector<float> values, double q)
 {
     const auto at = values.begin() + std::lround(q * double(values.size() - 1));

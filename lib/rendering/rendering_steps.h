@@ -5,6 +5,7 @@
 
 #include <srisp/image.h>
 
+#include "base/colorimetry.h"
 #include "base/matrix3.h"
 #include "base/random.h"
 
@@ -32,8 +33,11 @@ inline Vector3 white_clipped(const Vector3& v)
     return { v[0] > 1 ? 1 : v[0], v[1] > 1 ? 1 : v[1], v[2] > 1 ? 1 : v[2] };
 }
 
-/// sRGB's encoding of a linear value in [0,1]. [IEC 61966-2-1]
-float srgb_encoded(float linear);
+/// With sRGB's encoding.
+inline Vector3 srgb_encoded(const Vector3& linear)
+{
+    return { float(srgb_curve(linear[0])), float(srgb_curve(linear[1])), float(srgb_curve(linear[2])) };
+}
 
 /// Part of the way from v to 3v² − 2v³.
 inline float smoothstep(float v, float part)

@@ -24,7 +24,7 @@ TestRendering fixed_rendering(const RawScene& scene)
         const Vector3 v = white_clipped(scaled(raw, balance));
         const Vector3 linear =
             unit_clamped(product(color, unit_clamped(Vector3{ v[0] * gain, v[1] * gain, v[2] * gain })));
-        return Vector3{ srgb_encoded(linear[0]), srgb_encoded(linear[1]), srgb_encoded(linear[2]) };
+        return srgb_encoded(linear);
     };
 }
 
