@@ -209,6 +209,12 @@ std::vector<const Journal::Entry*> entries_in_order(const Journal& journal, cons
     return result;
 }
 
+/// Most reasons name the file by its path.
+std::string text_of(const LeftOut& one)
+{
+    return one.reason.find(one.file) == std::string::npos ? one.file + ": " + one.reason : one.reason;
+}
+
 void write_text(const std::string& path, const std::string& text)
 {
     if (path == "-")
@@ -284,7 +290,7 @@ int run_evaluation(const EvalOptions& options, const Protocol& protocol)
     for (const Journal::Entry* entry : entries)
         evaluation.images.push_back(entry->score);
     for (const LeftOut& one : evaluation.left_out)
-        std::fprintf(stderr, "srispeval: left out: %s: %s\n", one.file.c_str(), one.reason.c_str());
+        std::fprintf(stderr, "srispeval: left out: %s\n", text_of(one).c_str());
     if (entries.empty()) {
         check_interrupt();
         fail("nothing could be tested");

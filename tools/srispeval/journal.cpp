@@ -225,7 +225,8 @@ std::map<std::string, EvaluatedImage::LabCounts> Journal::lab(const Entry& entry
     const std::string of_result = "lab result ", of_wanted = "lab wanted ";
     std::map<std::string, EvaluatedImage::LabCounts> lab;
     std::int64_t offset = entry.offset;
-    for (const json& one : json::parse(entry.sizes)["bytes"]) {
+    const json sizes = json::parse(entry.sizes);
+    for (const json& one : sizes["bytes"]) {
         const auto name = one[0].get<std::string>();
         const auto count = one[1].get<std::size_t>();
         if (name.compare(0, of_result.size(), of_result) == 0)

@@ -11,8 +11,7 @@
 
 #include "../common/failure.h"
 #include "base/hashes.h"
-#include "base/random.h"
-#include "rendering/test_rendering.h"
+#include "rendering/upi.h"
 
 namespace srisp::tool {
 
@@ -58,36 +57,17 @@ public:
 
     Expected<MethodResult> unprocess(const Pixels& photo, const Pixels&, const std::string& key) const override
     {
-        Random random(seeded_hash(m_seed, key));
-        Matrix3 to_camera{};
-        double sum = 0;
-        std::vector<double> weights;
-        for (std::size_t k = 0; k < m_cameras.size(); ++k)
-            sum += weights.emplace_back(random.uniform(1e-3, 1));
-        for (std::size_t k = 0; k < m_cameras.size(); ++k)
-            for (std::size_t i = 0; i < 9; ++i)
-                to_camera[i] += float(weights[k] / sum) * m_cameras[k][i];
-        const double gain = 1 / (0.8 + 0.1 * random.normal());
-        const double red = gain * random.uniform(1.9, 2.4), blue = gain * random.uniform(1.5, 1.9);
-        const Vector3 gains{ float(red), float(gain), float(blue) };
-        MethodResult result{ photo, {}, json_text(gains, &to_camera) };
+        const UpiParameters parameters = draw_upi(Random(seeded_hash(m_seed, key)));
+        MethodResult result{ photo, {}, json_text(parameters.gains, &parameters.to_camera) };
         for (std::size_t i = 0; i < result.raw.rgb.size(); i += 3) {
-            Vector3 v;
-            for (std::size_t c = 0; c < 3; ++c) // the inverse of 3v² − 2v³, then of the gamma
-                v[c] = std::pow(std::max(0.5f - std::sin(std::asin(1 - 2 * unit_clamped(photo.rgb[i + c])) / 3), 1e-8f),
-                                kGamma);
-            v = product(to_camera, v);
-            // Highlights keep what gains above 1 would take from them.
-            const float kept = std::pow(unit_clamped(((v[0] + v[1] + v[2]) / 3 - 0.9f) * 10), 2.0f);
-            for (std::size_t c = 0; c < 3; ++c)
-                result.raw.rgb[i + c] = unit_clamped(v[c] / gains[c] + v[c] * kept * std::max(1 - 1 / gains[c], 0.0f));
+            const Vector3 v = unprocessed_by_upi(parameters, { photo.rgb[i], photo.rgb[i + 1], photo.rgb[i + 2] });
+            std::copy(v.begin(), v.end(), &result.raw.rgb[i]);
         }
         return result;
     }
 
 private:
     std::uint64_t m_seed;
-    std::vector<Matrix3> m_cameras = dnd_rgb_to_camera();
 };
 
 class ModelMethod : public Method {

@@ -27,6 +27,8 @@ std::array<int, 2> upright_size(std::array<int, 2> size, int orientation)
 
 std::string camera_name(const CameraFacts& facts)
 {
+    if (facts.make.empty() && facts.model.empty())
+        return "unknown camera";
     if (facts.make.empty() || OIIO::Strutil::istarts_with(facts.model, facts.make))
         return facts.model;
     return facts.model.empty() ? facts.make : facts.make + " " + facts.model;

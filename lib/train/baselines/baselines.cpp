@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/baselines/baselines.h"
 
+#include "rendering/upi.h"
 #include "train/network/pipeline.h"
 #include "train/tensors/color.h"
-#include "train/tensors/random.h"
 
 namespace srisp::train {
 
@@ -50,21 +50,16 @@ torch::Tensor GainMatch::process(const torch::Tensor& raw, const ChosenParameter
 
 ChosenParameters Upi::next_choice(std::int64_t images)
 {
-    const torch::Tensor cameras = dnd_rgb_to_camera();
     std::vector<torch::Tensor> rgb_to_camera, gains;
     for (std::int64_t i = 0; i < images; ++i) {
-        Random random(m_seed, m_images_seen++);
-        torch::Tensor weights = torch::empty({ cameras.size(0) });
-        for (std::int64_t k = 0; k < weights.size(0); ++k)
-            weights[k] = random.uniform(1e-3, 1);
-        rgb_to_camera.push_back(torch::tensordot(weights / weights.sum(), cameras, { 0 }, { 0 }));
-        const double gain = 1 / (0.8 + 0.1 * random.normal());
-        gains.push_back(torch::tensor({ gain * random.uniform(1.9, 2.4), gain, gain * random.uniform(1.5, 1.9) }));
+        const UpiParameters drawn = draw_upi(Random(m_seed, m_images_seen++));
+        rgb_to_camera.push_back(torch::tensor(at::ArrayRef<float>(drawn.to_camera)).view({ 3, 3 }));
+        gains.push_back(torch::tensor(at::ArrayRef<float>(drawn.gains)));
     }
     ChosenParameters choice;
     choice.gamma = torch::full({ images }, 2.2);
     choice.color = inverse3x3(torch::stack(rgb_to_camera));
-    choice.white_balance = torch::stack(gains).to(torch::kFloat32);
+    choice.white_balance = torch::stack(gains);
     choice.gain = torch::ones({ images });
     return choice;
 }

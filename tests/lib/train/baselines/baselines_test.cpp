@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 #include "lib/train/tensor_tools.h"
+#include "rendering/upi.h"
 #include "train/baselines/baselines.h"
 #include "train/run/model_file.h"
 #include "train/tensors/color.h"
@@ -55,6 +59,25 @@ TEST_CASE("UPI draws other parameters for every image, the same for the same see
     // Where no colour leaves the camera's gamut, the forward pass takes the reverse back.
     const torch::Tensor grey = torch::linspace(0.02, 0.8, 64).view({ 1, 1, 8, 8 }).repeat({ 4, 3, 1, 1 });
     CHECK(largest(method->process(method->apply_reverse(grey, first), first) - grey) < 1e-3);
+}
+
+TEST_CASE("UPI without LibTorch gives the same pixels")
+{
+    const torch::Tensor source = smooth_images(1, 20, 20, 1, 0, 1);
+    ChosenParameters choice;
+    const torch::Tensor raw = baseline("upi", 5)->reverse(source, {}, &choice);
+    const srisp::UpiParameters parameters = srisp::draw_upi(srisp::Random(5, 0));
+    double worst = 0;
+    for (int y = 0; y < 20; ++y)
+        for (int x = 0; x < 20; ++x) {
+            srisp::Vector3 photo;
+            for (int c = 0; c < 3; ++c)
+                photo[c] = source[0][c][y][x].item<float>();
+            const srisp::Vector3 v = srisp::unprocessed_by_upi(parameters, photo);
+            for (int c = 0; c < 3; ++c)
+                worst = std::max(worst, std::fabs(v[c] - raw[0][c][y][x].item<double>()));
+        }
+    CHECK(worst < 1e-5);
 }
 
 TEST_CASE("the U-Net takes any size, looks at no reference, and learns")
