@@ -4,7 +4,6 @@
 Usage: report_browser_test.py MAKE_REPORT [FOLDER]; screenshots go into FOLDER. Exit code 77: skipped.
 """
 import base64
-import io
 import json
 import shutil
 import subprocess
@@ -403,7 +402,7 @@ def main():
         open_viewer(page)
         page.shot(folder, "dark_viewer")
         page.press(Keys.ESCAPE)
-        pdf = base64.b64decode(page.cdp("Page.printToPDF", printBackground=False)["data"])
+        pdf = base64.b64decode(page.cdp("Page.printToPDF", printBackground=False, preferCSSPageSize=True)["data"])
         check("it prints", pdf[:5] == b"%PDF-" and pdf.count(b"/Type /Page\n") + pdf.count(b"/Type /Page ") > 3, len(pdf))
         if folder:
             (folder / "print.pdf").write_bytes(pdf)
