@@ -93,7 +93,7 @@ std::string numbers_table(const Evaluation& evaluation, const ImageScore& image)
     if (columns.empty())
         return "";
     std::string text =
-        "<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"Numbers\"><table class=\"numbers\">\n"
+        "<div class=\"wide\" role=\"group\" tabindex=\"0\" aria-label=\"Numbers\"><table class=\"numbers\">\n"
         "<caption class=\"hidden\">Numbers of this image</caption>\n<thead><tr><th scope=\"col\">method</th>";
     for (const Metric* metric : columns)
         text += "<th scope=\"col\" class=\"n\" title=\"" + html(metric->text) + "\">" + html(title_with_unit(*metric)) +
