@@ -90,7 +90,7 @@ MethodSummary summary_of(const std::vector<const ImageScore*>& images, std::size
                 continue;
             sum.sum += values.at(metric.key).value();
             sum.weight += 1;
-            if (!base.count(metric.key))
+            if (!base.count(metric.key) || !(base.at(metric.key).weight > 0))
                 continue;
             difference.sum += values.at(metric.key).value() - base.at(metric.key).value();
             difference.weight += 1;
