@@ -218,11 +218,15 @@ std::string chromaticity_plot(const std::vector<const ImageScore*>& images, cons
         if (!colors[i].empty())
             panels += color_panel(colors[i], range, i, short_name(methods[i]));
     const std::string sample = images.size() > kMostPoints ? " Of many images, evenly chosen ones are drawn." : "";
-    return figure("Mean colour of images", panels + "</div>\n",
-                  "A filled mark is a result's mean colour, the ring at the other end of its line the truth's, a small "
-                  "dot a reference's: short lines are good, and results that gather at the dots copy their reference." +
-                      sample,
-                  "full");
+    const bool has_truth = std::any_of(images.begin(), images.end(),
+                                       [](const ImageScore* image) { return image->truth_chromaticity.has_value(); });
+    const std::string how_to_read =
+        has_truth
+            ? "A filled mark is a result's mean colour, the ring at the other end of its line the truth's, a small "
+              "dot a reference's: short lines are good, and results that gather at the dots copy their reference."
+            : "A filled mark is a result's mean colour, a small dot a reference's: results should lie where "
+              "references lie, as far spread.";
+    return figure("Mean colour of images", panels + "</div>\n", how_to_read + sample, "full");
 }
 
 } // namespace srisp::tool

@@ -77,19 +77,23 @@ std::string parameters_html(const std::string& method, const std::string& parame
            html(readable_parameters(parameters)) + "</pre></details>\n";
 }
 
+double value_of(const MethodScore& score, const Metric& metric)
+{
+    const auto found = score.values.find(metric.key);
+    return found != score.values.end() ? found->second.value() : NAN;
+}
+
 std::string numbers_table(const Evaluation& evaluation, const ImageScore& image)
 {
     std::vector<const Metric*> columns;
     for (const Metric& metric : metrics())
-        for (const auto& [method, score] : image.methods)
-            if (score.values.count(metric.key) > 0) {
-                columns.push_back(&metric);
-                break;
-            }
+        if (std::any_of(image.methods.begin(), image.methods.end(),
+                        [&](const auto& one) { return std::isfinite(value_of(one.second, metric)); }))
+            columns.push_back(&metric);
     if (columns.empty())
         return "";
     std::string text =
-        "<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"Numbers\"><table class=\"numbers\">\n"
+        "<div class=\"wide\" role=\"group\" tabindex=\"0\" aria-label=\"Numbers\"><table class=\"numbers\">\n"
         "<caption class=\"hidden\">Numbers of this image</caption>\n<thead><tr><th scope=\"col\">method</th>";
     for (const Metric* metric : columns)
         text += "<th scope=\"col\" class=\"n\" title=\"" + html(metric->text) + "\">" + html(title_with_unit(*metric)) +
@@ -101,9 +105,7 @@ std::string numbers_table(const Evaluation& evaluation, const ImageScore& image)
             continue;
         text += "<tr><th scope=\"row\">" + html(method) + "</th>";
         for (const Metric* metric : columns) {
-            const auto value = score->second.values.find(metric->key);
-            text += "<td class=\"n\">" +
-                    number(value != score->second.values.end() ? value->second.value() : NAN, metric->digits) + "</td>";
+            text += "<td class=\"n\">" + number(value_of(score->second, *metric), metric->digits) + "</td>";
         }
         text += "</tr>\n";
     }

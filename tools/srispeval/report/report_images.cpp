@@ -65,12 +65,14 @@ void write_picture(const Picture& picture, const std::string& title, const std::
     if (picture.bytes.empty() || picture.width <= 0 || picture.height <= 0)
         return;
     const std::string width = std::to_string(picture.width), height = std::to_string(picture.height);
-    // A row that is half cut off keeps the lower half of the file, noise to the eye, from shining through.
+    // A row that is half cut off keeps the file's lower half, noise to the eye, from shining through where it is
+    // scaled.
     out.write("<figure data-kind=\"" + picture.kind + "\" data-name=\"" + html(picture.name) + "\" data-width=\"" +
               width + "\" data-height=\"" + height + "\"><div class=\"crop\" style=\"aspect-ratio:" + width + "/" +
               coordinate(picture.height - 0.5) + "\"><img decoding=\"async\" width=\"" + width + "\" height=\"" +
               std::to_string(picture.linear ? picture.height * 2 : picture.height) + "\" alt=\"" + html(picture.name) +
-              " of " + title + "\"" + (picture.linear ? " style=\"filter:url(#develop-" + anchor + ")\"" : "") +
+              " of " + title + "\"" +
+              (picture.linear ? " class=\"linear\" style=\"filter:url(#develop-" + anchor + ")\"" : "") +
               " src=\"data:image/" + (picture.linear ? "png" : "jpeg") + ";base64,");
     write_base64(out, picture.bytes);
     out.write("\"></div><figcaption>" + html(picture.caption) + "</figcaption></figure>\n");
@@ -82,6 +84,9 @@ void write_pictures(const Evaluation& evaluation, const ImageScore& image, const
     const std::string title = image_title(image);
     const int width = pictures.width, height = pictures.height;
     out.write(filter(pictures, anchor) + "<div class=\"pictures\">\n");
+    write_picture({ "reference", "reference", "reference: " + image.reference, pictures.reference,
+                    pictures.reference_width, pictures.reference_height, true },
+                  title, anchor, out);
     write_picture({ "photo", "photo", "photo", pictures.photo, width, height, false }, title, anchor, out);
     write_picture({ "truth", "truth", "truth", pictures.truth, width, height, true }, title, anchor, out);
     for (const std::string& method : evaluation.methods) {
@@ -89,9 +94,6 @@ void write_pictures(const Evaluation& evaluation, const ImageScore& image, const
         if (result != pictures.results.end())
             write_picture({ "result", method, method, result->second, width, height, true }, title, anchor, out);
     }
-    write_picture({ "reference", "reference", "reference: " + image.reference, pictures.reference,
-                    pictures.reference_width, pictures.reference_height, true },
-                  title, anchor, out);
     out.write("</div>\n");
 }
 

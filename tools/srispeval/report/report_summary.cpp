@@ -11,7 +11,7 @@ namespace srisp::tool {
 
 namespace {
 
-constexpr int kMostColumns = 8;
+constexpr std::size_t kMostColumns = 8; ///< of one table
 
 /// A column of a table of methods: a metric, or the spread of the brightness.
 struct Column {
@@ -122,14 +122,13 @@ std::string group_tables(const GroupSummary& group)
     const std::vector<Column> columns = columns_of(group.methods);
     const std::string about = rendering_title(group.rendering) + ", " + counted(group.images, "image") + " from " +
                               counted(group.files, "file") + ", " + counted(group.cameras, "camera");
-    // Split evenly: a table as wide as all of it would be read through a keyhole.
-    const std::size_t count = (columns.size() + kMostColumns - 1) / kMostColumns;
     std::string text;
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t begin = columns.size() * i / count, end = columns.size() * (i + 1) / count;
+    // Several tables: one as wide as all of it would be read through a keyhole.
+    for (std::size_t begin = 0; begin < columns.size(); begin += kMostColumns) {
+        const std::size_t end = std::min(columns.size(), begin + kMostColumns);
         const std::vector<Column> part(columns.begin() + std::ptrdiff_t(begin), columns.begin() + std::ptrdiff_t(end));
-        text +=
-            open_table(about + (i ? ": further measures" : ""), "<th scope=\"col\">method</th>", part) + "<tbody>\n";
+        text += open_table(about + (begin > 0 ? ": further measures" : ""), "<th scope=\"col\">method</th>", part) +
+                "<tbody>\n";
         for (const MethodSummary& method : group.methods)
             text += method_rows(method, group.methods[0].method, part);
         text += std::string("</tbody>\n") + kEndOfTable;

@@ -107,8 +107,10 @@
             return;
         }
         list_pictures();
-        const same = pictures.findIndex((one) => one.name === name);
-        choose(same >= 0 ? same : Math.max(0, pictures.findIndex((one) => one.kind === 'result')));
+        // What was shown before; else the first method behind the baseline.
+        const results = pictures.filter((one) => one.kind === 'result');
+        const first = pictures.find((one) => one.name === name) || results[1] || results[0] || pictures[0];
+        choose(pictures.indexOf(first));
     }
 
     function start(article, name) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <set>
+#include <vector>
 
 #include "html_text.h"
 
@@ -32,10 +33,10 @@ std::string comparison(const MethodSummary& method, const MethodSummary& baselin
     if (!leading)
         return "";
     const Interval& difference = method.over_baseline.at(leading->key);
-    const std::string unit = *leading->unit ? " " + std::string(leading->unit) : "",
+    const std::string unit = *leading->unit ? " " + std::string(leading->unit) : "",
                       range = signed_range_text(difference, leading->digits),
                       what = signed_number(difference.mean, leading->digits) + unit +
-                             (range.empty() ? "" : " (95 % interval " + range + ")"),
+                             (range.empty() ? "" : " (95 % interval " + range + ")"),
                       name = "<strong>" + html(method.method) + "</strong>", other = html(baseline.method);
     std::string text;
     if (is_noise(difference))
@@ -48,20 +49,35 @@ std::string comparison(const MethodSummary& method, const MethodSummary& baselin
     return text;
 }
 
-std::string group_answer(const GroupSummary& group, bool named)
+/// Each method against the baseline; where there is none but the baseline, what that reaches.
+std::vector<std::string> findings(const GroupSummary& group)
 {
-    std::string text;
+    std::vector<std::string> found;
     for (std::size_t i = 1; i < group.methods.size(); ++i)
         if (const std::string one = comparison(group.methods[i], group.methods[0]); !one.empty())
-            text += (text.empty() ? "" : "; ") + one;
-    if (text.empty() && !group.methods.empty())
-        if (const Interval* psnr = find(group.methods[0].values, key::kPsnr))
-            text = "<strong>" + html(group.methods[0].method) + "</strong> reaches " + number(psnr->mean, 2) +
-                   " dB PSNR (95 % interval " + range_text(*psnr, 2) + ")";
-    if (text.empty())
+            found.push_back(one);
+    const Interval* psnr = group.methods.empty() ? nullptr : find(group.methods[0].values, key::kPsnr);
+    if (found.empty() && psnr)
+        found.push_back("<strong>" + html(group.methods[0].method) + "</strong> reaches " + number(psnr->mean, 2) +
+                        " dB PSNR (95 % interval " + range_text(*psnr, 2) + ")");
+    return found;
+}
+
+/// One finding is a sentence; several are a list.
+std::string group_answer(const GroupSummary& group, bool named)
+{
+    const std::vector<std::string> found = findings(group);
+    const std::string on = "on " + counted(group.images, "image") + " of " + counted(group.cameras, "camera"),
+                      name = named ? "<em>" + rendering_title(group.rendering) + "</em>" : "";
+    if (found.empty())
         return "";
-    return "<p class=\"answer\">" + (named ? "<em>" + rendering_title(group.rendering) + ":</em> " : "") + text +
-           ", on " + counted(group.images, "image") + " of " + counted(group.cameras, "camera") + ".</p>\n";
+    if (found.size() == 1)
+        return "<p class=\"answer\">" + (named ? name + ": " : "") + found[0] + ", " + on + ".</p>\n";
+    std::string text =
+        "<p class=\"answer\">" + (named ? name + ", " + on : "On" + on.substr(2)) + ":</p>\n<ul class=\"answer\">\n";
+    for (const std::string& one : found)
+        text += "<li>" + one + "</li>\n";
+    return text + "</ul>\n";
 }
 
 std::string pair_row(const std::string& name, const std::string& value)
