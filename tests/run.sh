@@ -47,7 +47,7 @@ awk -v status="$status" -v no_trainer="$(sed -n 's/^SRISP_NO_TRAINER:INTERNAL=//
     /^Test Failed\.$/ { failed += failed_here ? failed_here : 1 }
     END {
         for (i = 1; i <= skipped; i++) print lines[i]
-        if (no_trainer) print "NOT BUILT, NOT TESTED srisptrain, srispeval: " no_trainer
+        if (no_trainer) print "NOT BUILT, NOT TESTED srisptrain, srispeval --pack: " no_trainer
         if (status && !failed) failed = 1
         printf "%d passed, %d failed, %d skipped\n", passed, failed, skipped
     }' "$log"

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <tuple>
 
 #include <nlohmann/json.hpp>
 #include <srisp/metrics.h>
@@ -88,7 +89,7 @@ public:
 
     static std::string key_of(const EvalTask& task) { return task.name + "\n" + task.state; }
 
-    /// What could not be tested.
+    /// Of which files nothing could be tested.
     std::vector<LeftOut> run()
     {
         const std::size_t count = std::min<std::size_t>(images_at_a_time(m_options.threads), m_waiting.size());
@@ -100,7 +101,7 @@ public:
         m_meter.wipe();
         if (m_failure)
             throw *m_failure;
-        return std::move(m_left_out);
+        return std::move(m_failed);
     }
 
 private:
@@ -125,13 +126,14 @@ private:
             if (m_failure || (pending_interrupt() && images.empty()))
                 return;
             try {
-                if (!images.empty())
-                    m_journal.append(key_of(task), images);
+                if (images.empty())
+                    m_failed.insert(m_failed.end(), left_out.begin(), left_out.end());
+                else
+                    m_journal.append(key_of(task), images, left_out);
             } catch (const Failure& failure) {
                 m_failure = failure;
                 m_next = m_waiting.size();
             }
-            m_left_out.insert(m_left_out.end(), left_out.begin(), left_out.end());
             m_meter.show(std::int64_t(++m_done));
         }
     }
@@ -171,7 +173,7 @@ private:
     std::mutex m_mutex; ///< of what follows
     ProgressMeter m_meter;
     std::size_t m_done = 0;
-    std::vector<LeftOut> m_left_out;
+    std::vector<LeftOut> m_failed;
     std::optional<Failure> m_failure;
 };
 
@@ -206,6 +208,20 @@ std::vector<const Journal::Entry*> entries_in_order(const Journal& journal, cons
     for (const EvalTask& task : protocol.tasks)
         if (const auto found = by_task.find(Runner::key_of(task)); found != by_task.end())
             result.insert(result.end(), found->second.begin(), found->second.end());
+    return result;
+}
+
+/// Files and parts of files that were not tested, sorted.
+std::vector<LeftOut> all_left_out(const Protocol& protocol, const Journal& journal, const std::vector<LeftOut>& failed)
+{
+    std::vector<LeftOut> result = protocol.left_out;
+    result.insert(result.end(), failed.begin(), failed.end());
+    for (const EvalTask& task : protocol.tasks)
+        if (const auto found = journal.left_out().find(Runner::key_of(task)); found != journal.left_out().end())
+            result.insert(result.end(), found->second.begin(), found->second.end());
+    std::sort(result.begin(), result.end(), [](const LeftOut& a, const LeftOut& b) {
+        return std::tie(a.file, a.reason) < std::tie(b.file, b.reason);
+    });
     return result;
 }
 
@@ -271,12 +287,8 @@ int run_evaluation(const EvalOptions& options, const Protocol& protocol)
     const std::string output = !options.report.empty() ? options.report : options.json != "-" ? options.json : "";
     Journal journal(output.empty() ? "" : output + ".unfinished", hash_of_bytes(settings.data(), settings.size()));
 
-    evaluation.left_out = protocol.left_out;
-    const std::vector<LeftOut> left_out = Runner(options, protocol, methods, picture_size, journal).run();
-    evaluation.left_out.insert(evaluation.left_out.end(), left_out.begin(), left_out.end());
-    std::sort(evaluation.left_out.begin(), evaluation.left_out.end(),
-              [](const LeftOut& a, const LeftOut& b) { return a.file < b.file; });
-
+    const std::vector<LeftOut> failed = Runner(options, protocol, methods, picture_size, journal).run();
+    evaluation.left_out = all_left_out(protocol, journal, failed);
     const auto entries = entries_in_order(journal, protocol);
     evaluation.protocol = protocol.name;
     evaluation.protocol_text = protocol.text;

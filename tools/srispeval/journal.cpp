@@ -138,10 +138,14 @@ void Journal::read_records(const std::string& settings)
                     offset += std::int64_t(bytes);
                 }
             }
+            std::vector<LeftOut> left_out;
+            for (const json& one : record->at("left_out"))
+                left_out.push_back({ one.at(0).get<std::string>(), one.at(1).get<std::string>() });
             if (offset > size || std::fseek(m_file, offset, SEEK_SET) != 0)
                 return;
             m_end = offset;
             m_tasks.insert(task);
+            m_left_out[task] = std::move(left_out);
             m_entries.insert(m_entries.end(), std::make_move_iterator(entries.begin()),
                              std::make_move_iterator(entries.end()));
         } catch (const json::exception&) {
@@ -150,9 +154,12 @@ void Journal::read_records(const std::string& settings)
     }
 }
 
-void Journal::append(const std::string& task, const std::vector<EvaluatedImage>& images)
+void Journal::append(const std::string& task, const std::vector<EvaluatedImage>& images,
+                     const std::vector<LeftOut>& left_out)
 {
-    ordered_json list = ordered_json::array();
+    ordered_json list = ordered_json::array(), missing = ordered_json::array();
+    for (const LeftOut& one : left_out)
+        missing.push_back({ one.file, one.reason });
     std::string bytes;
     std::vector<Entry> entries;
     for (const EvaluatedImage& image : images) {
@@ -166,9 +173,9 @@ void Journal::append(const std::string& task, const std::vector<EvaluatedImage>&
         for (const auto& [name, blob] : blobs)
             bytes += blob;
     }
-    const std::string line =
-        ordered_json{ { "task", task }, { "images", list } }.dump(-1, ' ', false, json::error_handler_t::replace) +
-        "\n";
+    const std::string line = ordered_json{ { "task", task }, { "images", list }, { "left_out", missing } }.dump(
+                                 -1, ' ', false, json::error_handler_t::replace) +
+                             "\n";
     const std::int64_t start = m_end + std::int64_t(line.size());
     const bool written = std::fseek(m_file, 0, SEEK_END) == 0 &&
                          std::fwrite(line.data(), 1, line.size(), m_file) == line.size() &&
@@ -182,6 +189,7 @@ void Journal::append(const std::string& task, const std::vector<EvaluatedImage>&
     }
     m_end = start + std::int64_t(bytes.size());
     m_tasks.insert(task);
+    m_left_out[task] = left_out;
 }
 
 std::string Journal::bytes(std::int64_t offset, std::size_t count) const

@@ -29,8 +29,11 @@ public:
 
     /// Names and states of the tasks that are in it.
     const std::set<std::string>& tasks() const { return m_tasks; }
+    /// What could not be tested of these tasks, by their names.
+    const std::map<std::string, std::vector<LeftOut>>& left_out() const { return m_left_out; }
     /// Adds what one task found out. Throws Failure, as on a full disk.
-    void append(const std::string& task, const std::vector<EvaluatedImage>& images);
+    void append(const std::string& task, const std::vector<EvaluatedImage>& images,
+                const std::vector<LeftOut>& left_out = {});
 
     /// Where an image lies in it; scores are in memory, pictures are not.
     struct Entry {
@@ -55,6 +58,7 @@ private:
     std::int64_t m_end = 0; ///< of the last whole record
     std::set<std::string> m_tasks;
     std::vector<Entry> m_entries;
+    std::map<std::string, std::vector<LeftOut>> m_left_out;
 };
 
 } // namespace srisp::tool

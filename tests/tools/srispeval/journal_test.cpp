@@ -37,9 +37,11 @@ TEST_CASE("what a journal holds is there for the next run, pictures and histogra
     {
         Journal journal(path, "settings");
         journal.append("one", { some_image("a.dng"), some_image("b.dng") });
-        journal.append("two", { some_image("c.dng") });
+        journal.append("two", { some_image("c.dng") }, { { "c.dng", "no JPEG" } });
     }
     Journal journal(path, "settings");
+    REQUIRE(journal.left_out().at("two").size() == 1);
+    CHECK(journal.left_out().at("two")[0].reason == "no JPEG");
     CHECK(journal.tasks() == std::set<std::string>{ "one", "two" });
     REQUIRE(journal.entries().size() == 3);
     const Journal::Entry& entry = journal.entries()[2];

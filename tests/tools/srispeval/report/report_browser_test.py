@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The report of srispeval in a browser, used as a person would: by keyboard, without scripts, in the dark, on paper.
 
-Usage: report_browser_test.py MAKE_REPORT [FOLDER]; screenshots go into FOLDER. Exit code 77: skipped.
+Usage: report_browser_test.py MAKE_REPORT [FOLDER]; screenshots go into FOLDER.
 """
 import base64
 import subprocess

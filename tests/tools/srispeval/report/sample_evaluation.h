@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "../../../tools/srispeval/report_page.h"
+#include "../../../../tools/srispeval/report/report_page.h"
 
 // An evaluation as it might be, made of a formula: for tests of the report. Names in it are hostile.
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../../../tools/srispeval/report_page.h"
+#include "../../../../tools/srispeval/report/report_page.h"
 
 #include <doctest/doctest.h>
 
-#include "../../../tools/srispeval/metric_table.h"
+#include "../../../../tools/srispeval/metric_table.h"
 #include "sample_evaluation.h"
 
 using namespace srisp;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "../../../tools/srispeval/metric_table.h"
+#include "../../../../tools/srispeval/metric_table.h"
 
 using namespace srisp::tool;
 

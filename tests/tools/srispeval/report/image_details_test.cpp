@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../../../tools/srispeval/image_details.h"
+#include "../../../../tools/srispeval/report/image_details.h"
 
 #include <doctest/doctest.h>
 

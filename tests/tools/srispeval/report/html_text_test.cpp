@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../../../tools/srispeval/html_text.h"
+#include "../../../../tools/srispeval/report/html_text.h"
 
 #include <cmath>
 #include <limits>
 
 #include <doctest/doctest.h>
 
-#include "../../../tools/srispeval/base64.h"
+#include "../../../../tools/srispeval/report/base64.h"
 
 using namespace srisp;
 using namespace srisp::tool;

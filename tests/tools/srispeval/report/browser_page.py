@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A page in headless Chromium, its pixels, and what they should be by another decoder than the browser's.
 
-Exits with code 77 and a line that says why where something is missing.
+Leaves the test as skipped, with a line that says why, where something is missing.
 """
 import base64
 import json
@@ -10,13 +10,10 @@ import sys
 import tempfile
 import time
 
-SKIPPED = 77
-TEST = "tests/tools/srispeval/report_browser_test.py"
-
 
 def skip(what):
-    print(f"SKIPPED {TEST}: needs {what}", file=sys.stderr, flush=True)
-    sys.exit(SKIPPED)
+    print(f"SKIPPED report_browser_test.py: needs {what}", flush=True)
+    sys.exit(0)
 
 
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
@@ -48,7 +45,7 @@ def check(what, good, detail=""):
 
 def finish():
     """Prints the count; the exit code."""
-    print(f"{TEST}: {checks - failures} of {checks} checks passed", flush=True)
+    print(f"{checks - failures} passed, {failures} failed", flush=True)
     return 1 if failures else 0
 
 

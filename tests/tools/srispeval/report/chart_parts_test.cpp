@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../../../tools/srispeval/chart_parts.h"
+#include "../../../../tools/srispeval/report/chart_parts.h"
 
 #include <cmath>
 #include <limits>
