@@ -44,6 +44,7 @@ What is written:
   --report FILE.html  A page with tables, charts and pictures that needs nothing
                       else and opens anywhere
   --pictures N        Images that it shows, at most; 100
+  --report-size MB    How large it may be, which says how large pictures are; 18
   --json FILE         Everything as JSON; -: on stdout, instead of the table
   --csv FILE          A line for each image and method
   --by-camera         The table on stdout has each camera, too

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "eval_options.h"
 
+#include <algorithm>
 #include <map>
 
 #include <CLI/CLI.hpp>
 
 #include "../common/failure.h"
-#include "base/near_names.h"
 #include "base/shown_text.h"
 #include "converter.h"
 #include "photo_rendering.h"
@@ -40,6 +40,7 @@ void describe_evaluation(CLI::App& app, EvalOptions& options)
     app.add_option("--csv", options.csv);
     app.add_option("--size", options.size)->check(CLI::Range(0, 100000));
     app.add_option("--pictures", options.pictures)->check(CLI::Range(0, 100000));
+    app.add_option("--report-size", options.report_mb)->check(CLI::Range(0.1, 10000.0));
     app.add_option("--seed", options.seed);
     app.add_option("--threads", options.threads)->check(CLI::Range(0, 1024));
     app.add_option("--memory", options.memory_gb)->check(CLI::Range(0.1, 1e6));

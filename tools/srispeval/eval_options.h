@@ -21,7 +21,8 @@ struct EvalOptions {
     int size = 512;                   ///< longest side on which is measured; 0: as it is
     int edits = 5;
     int reference_count = 8; ///< that each unpaired photo gets
-    int pictures = 100;      ///< in the report, at most
+    int pictures = 100;      ///< images that the report shows, at most
+    double report_mb = 18;   ///< size of the report, about
     std::uint64_t seed = 1;
     int threads = 0;
     double memory_gb = 0;

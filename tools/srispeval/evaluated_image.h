@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -34,8 +33,6 @@ struct EvaluatedImage {
 struct PictureSettings {
     int longest = 0; ///< pixels; 0: none are made
 };
-
-using Methods = std::vector<std::unique_ptr<Method>>;
 
 /// Runs all methods on the image. Errors: those of a method.
 Expected<EvaluatedImage> evaluate_image(const TestImage& image, const Methods& methods,

@@ -279,8 +279,9 @@ int run_evaluation(const EvalOptions& options, const Protocol& protocol)
     Evaluation evaluation;
     evaluation.settings = settings_of(options, methods);
     const std::size_t images = protocol.tasks.size() * std::size_t(protocol.images_per_task);
-    const int picture_size =
-        options.report.empty() ? 0 : picture_side(std::min(images, std::size_t(options.pictures)), methods.size());
+    const int picture_size = options.report.empty() ? 0
+                                                    : picture_side(std::min(images, std::size_t(options.pictures)),
+                                                                   methods.size(), options.report_mb);
     std::string settings = std::string(SRISP_VERSION) + " " + protocol.name + " " + std::to_string(picture_size);
     for (const auto& [name, value] : evaluation.settings)
         settings += "\n" + name + ": " + value;
@@ -310,7 +311,7 @@ int run_evaluation(const EvalOptions& options, const Protocol& protocol)
     std::set<std::string> cameras;
     for (const ImageScore& image : evaluation.images)
         cameras.insert(image.camera);
-    evaluation.groups = summarize(evaluation.images, evaluation.methods, cameras_seen(options.models, cameras));
+    evaluation.groups = summarize(evaluation.images, evaluation.methods, cameras_seen(methods, cameras));
     add_pooled_lab(journal, entries, evaluation.groups);
 
     write_text(options.json, options.json.empty() ? "" : to_json(evaluation));

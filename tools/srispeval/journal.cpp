@@ -202,7 +202,7 @@ std::string Journal::bytes(std::int64_t offset, std::size_t count) const
 
 ImagePictures Journal::pictures(const Entry& entry) const
 {
-    const json sizes = json::parse(entry.sizes);
+    const json sizes = require(parse_json<json>(entry.sizes));
     ImagePictures pictures;
     pictures.width = sizes["size"][0];
     pictures.height = sizes["size"][1];
@@ -233,7 +233,7 @@ std::map<std::string, EvaluatedImage::LabCounts> Journal::lab(const Entry& entry
     const std::string of_result = "lab result ", of_wanted = "lab wanted ";
     std::map<std::string, EvaluatedImage::LabCounts> lab;
     std::int64_t offset = entry.offset;
-    const json sizes = json::parse(entry.sizes);
+    const json sizes = require(parse_json<json>(entry.sizes));
     for (const json& one : sizes["bytes"]) {
         const auto name = one[0].get<std::string>();
         const auto count = one[1].get<std::size_t>();

@@ -117,16 +117,19 @@ std::unique_ptr<Method> make_upi(std::uint64_t seed)
 std::unique_ptr<Method> make_model_method(std::shared_ptr<const Model> model, std::string name)
 {
     std::string origin = "model " + model->hash();
+    const auto training = model->metadata().find("train_data");
+    std::string known = training == model->metadata().end() ? "" : training->second;
     auto method = std::make_unique<ModelMethod>(std::move(model));
     method->name = std::move(name);
     method->origin = std::move(origin);
+    method->training = std::move(known);
     return method;
 }
 
-std::vector<std::unique_ptr<Method>> load_methods(const std::vector<std::string>& baselines,
-                                                  const std::vector<std::string>& models, std::uint64_t seed)
+Methods load_methods(const std::vector<std::string>& baselines, const std::vector<std::string>& models,
+                     std::uint64_t seed)
 {
-    std::vector<std::unique_ptr<Method>> methods;
+    Methods methods;
     for (const std::string& name : baselines)
         methods.push_back(name == "upi" ? make_upi(seed) : make_gain_match());
     for (const std::string& path : models) {
@@ -142,18 +145,13 @@ std::vector<std::unique_ptr<Method>> load_methods(const std::vector<std::string>
     return methods;
 }
 
-std::set<std::string> cameras_seen(const std::vector<std::string>& models, const std::set<std::string>& cameras)
+std::set<std::string> cameras_seen(const Methods& methods, const std::set<std::string>& cameras)
 {
     std::set<std::string> seen;
-    for (const std::string& path : models) {
-        const auto model = require(Model::load(path));
-        const auto data = model->metadata().find("train_data"); // as srisptrain writes it
-        const std::size_t raws =
-            data == model->metadata().end() ? std::string::npos : data->second.find("RAW images: ");
-        if (raws == std::string::npos)
-            continue;
+    for (const auto& method : methods) {
+        const std::size_t raws = method->training.find("RAW images: "); // as srisptrain writes it
         for (const std::string& camera : cameras)
-            if (data->second.find(" " + camera + " (", raws) != std::string::npos)
+            if (raws != std::string::npos && method->training.find(" " + camera + " (", raws) != std::string::npos)
                 seen.insert(camera);
     }
     return seen;

@@ -33,8 +33,9 @@ public:
     virtual Expected<MethodResult> unprocess(const Pixels& photo, const Pixels& reference,
                                              const std::string& key) const = 0;
 
-    std::string name;   ///< in tables
-    std::string origin; ///< which file and hash, or what the baseline does: one sentence
+    std::string name;     ///< in tables
+    std::string origin;   ///< which file and hash, or what the baseline does: one sentence
+    std::string training; ///< what a model's file says of the images it was trained on
 };
 
 /// photo^2.2 times one gain for each channel that gives the reference's channel means. [method 4]
@@ -46,11 +47,13 @@ std::unique_ptr<Method> make_upi(std::uint64_t seed);
 /// What ships: select, then apply.
 std::unique_ptr<Method> make_model_method(std::shared_ptr<const Model> model, std::string name);
 
+using Methods = std::vector<std::unique_ptr<Method>>;
+
 /// The baselines, then the models: names or paths. Names are made different where files have one name. Throws Failure.
-std::vector<std::unique_ptr<Method>> load_methods(const std::vector<std::string>& baselines,
-                                                  const std::vector<std::string>& models, std::uint64_t seed);
+Methods load_methods(const std::vector<std::string>& baselines, const std::vector<std::string>& models,
+                     std::uint64_t seed);
 
 /// Those of the cameras whose RAW images one of the models says it was trained on.
-std::set<std::string> cameras_seen(const std::vector<std::string>& models, const std::set<std::string>& cameras);
+std::set<std::string> cameras_seen(const Methods& methods, const std::set<std::string>& cameras);
 
 } // namespace srisp::tool

@@ -43,12 +43,12 @@ std::vector<std::size_t> shown_images(const Evaluation& evaluation, std::size_t 
     return shown;
 }
 
-int picture_side(std::size_t images, std::size_t methods)
+int picture_side(std::size_t images, std::size_t methods, double megabytes)
 {
     // Measured on photos: bytes a pixel of a linear picture and of a JPEG; what is embedded grows by a third.
-    constexpr double kBudget = 18e6 * 3 / 4, kLinear = 3.4, kJpeg = 0.5, kShape = 0.75;
+    constexpr double kEmbedded = 0.75, kLinear = 3.4, kJpeg = 0.5, kShape = 0.75;
     constexpr int kLeast = 64, kMost = 320;
-    const double each = kBudget / double(std::max<std::size_t>(images, 1));
+    const double each = megabytes * 1e6 * kEmbedded / double(std::max<std::size_t>(images, 1));
     const double pixels = each / (kLinear * double(methods + 2) + kJpeg);
     return std::clamp(int(std::sqrt(pixels / kShape)), kLeast, kMost);
 }

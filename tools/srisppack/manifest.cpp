@@ -8,8 +8,8 @@
 #include "base/near_names.h"
 #include "base/shown_text.h"
 
-#include "../common/failure.h"
 #include "../common/csv_table.h"
+#include "../common/failure.h"
 
 namespace srisp::tool {
 

@@ -6,12 +6,12 @@
 #include <cstdlib>
 #include <map>
 
+#include "../common/csv_table.h"
 #include "../common/failure.h"
 #include "base/input_file.h"
 #include "base/json_object.h"
 #include "base/matrix3.h"
 #include "base/shown_text.h"
-#include "../common/csv_table.h"
 
 namespace srisp::tool {
 

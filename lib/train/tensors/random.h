@@ -9,6 +9,8 @@
 
 namespace srisp::train {
 
+using srisp::Random;
+
 /// One generator for each image of a batch.
 using Randoms = std::vector<Random>;
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "metric_table.h"
+#include "../metric_table.h"
 
 // Texts and numbers for HTML. Whatever comes from outside (names of files, cameras, converters; notes; parameters) goes
 // through html().

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "metric_table.h"
+#include "../metric_table.h"
 
 // Charts of single images' scores. `images`: those of one rendering. Each is empty where there is nothing to show.
 

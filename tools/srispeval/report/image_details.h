@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "metric_table.h"
+#include "../metric_table.h"
 
 namespace srisp::tool {
 

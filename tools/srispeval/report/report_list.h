@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "metric_table.h"
+#include "../metric_table.h"
 
 namespace srisp::tool {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "metric_table.h"
+#include "../metric_table.h"
 
 namespace srisp::tool {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scores.h"
+#include "../scores.h"
 
 namespace srisp::tool {
 

@@ -59,7 +59,7 @@ struct Images {
         raw = enlarge_noise(torch::rand({ 16, 3, 4, 4 })).clamp(0, 1);
         balance = torch::rand({ 16, 3 }) + 1;
         balance.select(1, 1).fill_(1);
-        others = torch::inverse(dnd_rgb_to_camera());
+        others = torch::inverse(srisp::train::dnd_rgb_to_camera());
         color = others.mean(0).expand({ 16, 3, 3 }).contiguous();
     }
 
