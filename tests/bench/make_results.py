@@ -7,9 +7,9 @@
 What takes long is kept in BUILD/results, and a run that is stopped goes on there. To begin anew, remove that folder."""
 import argparse
 import csv
-import glob
 import json
 import os
+import shutil
 import statistics
 import subprocess
 import sys
@@ -20,6 +20,7 @@ MODELS = ["default", "spatial"]
 SETS = {"real": "real RAW", "simulated": "simulated"}
 RENDERINGS = ["fixed", "random", "camera"]
 ALL_IMAGES = ["--set", "real_images=500", "--set", "real_validation_only=false", "--set", "simulated_images=0"]
+PICTURE = "1"  # of the images shown in the report
 REPORT = ["--pictures", "16", "--report-size", "2.8"]
 # Whose means lie apart.
 THERE_AND_BACK = ["blackmagic_pocket.dng", "raspberry_pi.dng", "canon_kiss_x4.dng", "gopro_hero6.dng",
@@ -231,6 +232,9 @@ def main():
     for name, text in (("results.md", page), ("results/report.html", open(work.path("report.html")).read())):
         with open(f"{ROOT}/docs/{name}", "w") as file:
             file.write(text)
+    if shutil.which("chromedriver"):
+        subprocess.run([sys.executable, HERE + "/report_picture.py", ROOT + "/docs/results/report.html",
+                        ROOT + "/docs/images/evaluation.jpg", PICTURE], check=True)
     print(f"make_results: docs/results.md and docs/results/report.html; all RAW files: {work.path('files.html')}")
 
 

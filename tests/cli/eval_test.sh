@@ -138,6 +138,7 @@ check "an output that is an input" says 1 "inputs are never overwritten" "$evalu
 check "a folder that is not there" says 1 "there is no folder 'no'" "$evaluate" half-split raws/a.dng --report no/report.html
 check "scores that are none" says 1 "is no file of scores" sh -c 'echo "{}" >no.json; "$0" compare no.json scores.json' "$evaluate"
 check "help and version" sh -c '"$0" --help | grep -q "srispeval half-split RAWS" && "$0" half-split --help | grep -q Examples && "$0" --version | grep -q srispeval' "$evaluate"
+check "a device as an output has no file beside it" sh -c '"$0" half-split raws/a.dng -q --size 64 --json /dev/null >/dev/null && [ ! -e /dev/null.unfinished ]' "$evaluate"
 if [ -w /dev/full ]; then
     full() { exits 1 half_split --csv /dev/full >/dev/null 2>full.txt && grep -q "No space left" full.txt; }
     check "a full disk" full

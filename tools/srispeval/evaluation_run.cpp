@@ -2,13 +2,9 @@
 #include "evaluation_run.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <mutex>
-#include <optional>
-#include <thread>
 #include <tuple>
 
 #include <nlohmann/json.hpp>
@@ -16,18 +12,17 @@
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
-#include "../common/machine_share.h"
-#include "../common/memory_gate.h"
 #include "base/hashes.h"
 #include "base/input_files.h"
 #include "base/output_file.h"
-#include "base/progress.h"
 #include "journal.h"
 #include "metric_table.h"
+#include "score_csv.h"
 #include "score_json.h"
 #include "score_table.h"
 #include "shown_images.h"
 #include "summary.h"
+#include "task_runner.h"
 
 namespace srisp::tool {
 
@@ -73,110 +68,6 @@ std::vector<std::string> measures_text()
     };
 }
 
-/// Runs tasks on several threads, each result into the journal.
-class Runner {
-public:
-    Runner(const EvalOptions& options, const Protocol& protocol, const Methods& methods, int picture_size,
-           Journal& journal)
-        : m_options(options), m_protocol(protocol), m_methods(methods), m_pictures{ picture_size }, m_journal(journal),
-          m_gate(memory_limit(options.memory_gb)), m_meter(work(protocol, journal), !options.quiet)
-    {
-        for (const EvalTask& task : protocol.tasks)
-            if (!journal.tasks().count(key_of(task)))
-                m_waiting.push_back(&task);
-        m_done = protocol.tasks.size() - m_waiting.size();
-    }
-
-    static std::string key_of(const EvalTask& task) { return task.name + "\n" + task.state; }
-
-    /// Of which files nothing could be tested.
-    std::vector<LeftOut> run()
-    {
-        const std::size_t count = std::min<std::size_t>(images_at_a_time(m_options.threads), m_waiting.size());
-        std::vector<std::thread> threads;
-        for (std::size_t i = 0; i < count; ++i)
-            threads.emplace_back([this] { work_on(); });
-        for (std::thread& thread : threads)
-            thread.join();
-        m_meter.wipe();
-        if (m_failure)
-            throw *m_failure;
-        return std::move(m_failed);
-    }
-
-private:
-    static WorkCount work(const Protocol& protocol, const Journal& journal)
-    {
-        return { "srispeval", protocol.has_truth ? "RAW files" : "photos", std::int64_t(protocol.tasks.size()),
-                 std::int64_t(std::min(journal.tasks().size(), protocol.tasks.size())) };
-    }
-
-    void work_on()
-    {
-        for (std::size_t i = m_next++; i < m_waiting.size() && !pending_interrupt(); i = m_next++) {
-            const EvalTask& task = *m_waiting[i];
-            std::vector<EvaluatedImage> images;
-            std::vector<LeftOut> left_out;
-            try {
-                evaluate(task, images, left_out);
-            } catch (const std::exception& error) {
-                left_out.push_back({ task.name, error.what() });
-            }
-            const std::lock_guard lock(m_mutex);
-            if (m_failure || (pending_interrupt() && images.empty()))
-                return;
-            try {
-                if (images.empty())
-                    m_failed.insert(m_failed.end(), left_out.begin(), left_out.end());
-                else
-                    m_journal.append(key_of(task), images, left_out);
-            } catch (const Failure& failure) {
-                m_failure = failure;
-                m_next = m_waiting.size();
-            }
-            m_meter.show(std::int64_t(++m_done));
-        }
-    }
-
-    void evaluate(const EvalTask& task, std::vector<EvaluatedImage>& images, std::vector<LeftOut>& left_out)
-    {
-        std::optional<MemoryGate::Pass> pass;
-        auto made = task.make([&](std::uint64_t bytes) { pass.emplace(m_gate, bytes); });
-        if (!made) {
-            left_out.push_back({ task.name, made.error().message });
-            return;
-        }
-        pass.reset();
-        left_out = std::move(made->left_out);
-        for (const TestImage& image : made->images) {
-            auto evaluated = evaluate_image(image, m_methods, { m_options.edits, m_options.seed }, m_pictures);
-            if (!evaluated) {
-                left_out.push_back(
-                    { task.name, image.score.rendering + " " + image.score.part + ": " + evaluated.error().message });
-                continue;
-            }
-            images.push_back(std::move(*evaluated));
-        }
-        if (m_protocol.ranks)
-            add_rank_correlations(images, m_methods);
-    }
-
-    const EvalOptions& m_options;
-    const Protocol& m_protocol;
-    const Methods& m_methods;
-    const PictureSettings m_pictures;
-    Journal& m_journal;
-    MemoryGate m_gate;
-    std::vector<const EvalTask*> m_waiting;
-    std::atomic<std::size_t> m_next{ 0 };
-
-    std::mutex m_mutex; ///< of what follows
-    ProgressMeter m_meter;
-    std::size_t m_done = 0;
-    std::vector<LeftOut> m_failed;
-    std::optional<Failure> m_failure;
-};
-
 /// The paper's histogram intersection, over all images of each rendering together.
 void add_pooled_lab(const Journal& journal, const std::vector<const Journal::Entry*>& entries,
                     std::vector<GroupSummary>& groups)
@@ -206,7 +97,7 @@ std::vector<const Journal::Entry*> entries_in_order(const Journal& journal, cons
         by_task[entry.task].push_back(&entry);
     std::vector<const Journal::Entry*> result;
     for (const EvalTask& task : protocol.tasks)
-        if (const auto found = by_task.find(Runner::key_of(task)); found != by_task.end())
+        if (const auto found = by_task.find(key_of(task)); found != by_task.end())
             result.insert(result.end(), found->second.begin(), found->second.end());
     return result;
 }
@@ -217,7 +108,7 @@ std::vector<LeftOut> all_left_out(const Protocol& protocol, const Journal& journ
     std::vector<LeftOut> result = protocol.left_out;
     result.insert(result.end(), failed.begin(), failed.end());
     for (const EvalTask& task : protocol.tasks)
-        if (const auto found = journal.left_out().find(Runner::key_of(task)); found != journal.left_out().end())
+        if (const auto found = journal.left_out().find(key_of(task)); found != journal.left_out().end())
             result.insert(result.end(), found->second.begin(), found->second.end());
     std::sort(result.begin(), result.end(), [](const LeftOut& a, const LeftOut& b) {
         return std::tie(a.file, a.reason) < std::tie(b.file, b.reason);
@@ -249,6 +140,18 @@ void write_html(const EvalOptions& options, const Evaluation& evaluation, const 
         [&](std::size_t i) -> Expected<ImagePictures> { return journal.pictures(*entries[i]); }, file));
     if (const Status written = file.finish(); !written)
         fail("report " + written.error().message);
+}
+
+/// Beside the first output that is a file; empty: there is none.
+std::string journal_path(const EvalOptions& options)
+{
+    for (const std::string& path : { options.report, options.json, options.csv }) {
+        std::error_code error;
+        const bool is_device = std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error);
+        if (!path.empty() && path != "-" && !is_device)
+            return path + ".unfinished";
+    }
+    return "";
 }
 
 /// No output may take the place of an input.
@@ -285,10 +188,9 @@ int run_evaluation(const EvalOptions& options, const Protocol& protocol)
     std::string settings = std::string(SRISP_VERSION) + " " + protocol.name + " " + std::to_string(picture_size);
     for (const auto& [name, value] : evaluation.settings)
         settings += "\n" + name + ": " + value;
-    const std::string output = !options.report.empty() ? options.report : options.json != "-" ? options.json : "";
-    Journal journal(output.empty() ? "" : output + ".unfinished", hash_of_bytes(settings.data(), settings.size()));
+    Journal journal(journal_path(options), hash_of_bytes(settings.data(), settings.size()));
 
-    const std::vector<LeftOut> failed = Runner(options, protocol, methods, picture_size, journal).run();
+    const std::vector<LeftOut> failed = run_tasks(options, protocol, methods, picture_size, journal);
     evaluation.left_out = all_left_out(protocol, journal, failed);
     const auto entries = entries_in_order(journal, protocol);
     evaluation.protocol = protocol.name;

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "score_json.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
 
-#include "base/input_file.h"
 #include "base/json_text.h"
-#include "base/shown_text.h"
 #include "metric_table.h"
 
 namespace srisp::tool {
@@ -15,9 +11,6 @@ namespace srisp::tool {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr char kFormat[] = "srisp-scores-1";
-constexpr std::size_t kMostBytes = std::size_t(1) << 30;
 
 Json number(double value)
 {
@@ -48,98 +41,6 @@ Json method_json(const MethodScore& score)
     const auto parameters = parse_json<Json>(score.parameters);
     json["parameters"] = parameters ? *parameters : Json(nullptr);
     return json;
-}
-
-/// Thrown where a file is not as it should be.
-struct Wrong {
-    std::string what;
-};
-
-double number_of(const nlohmann::json& json, const std::string& where)
-{
-    if (json.is_null())
-        return std::nan("");
-    if (!json.is_number())
-        throw Wrong{ "'" + where + "' is no number" };
-    return json.get<double>();
-}
-
-std::optional<Chromaticity> chromaticity_of_json(const nlohmann::json& parent, const char* key)
-{
-    const auto found = parent.find(key);
-    if (found == parent.end() || found->is_null())
-        return {};
-    if (!found->is_array() || found->size() != 2)
-        throw Wrong{ std::string("'") + key + "' is no pair of numbers" };
-    return Chromaticity{ number_of((*found)[0], key), number_of((*found)[1], key) };
-}
-
-Measured measured(double value, double weight)
-{
-    return std::isfinite(value) && weight > 0 ? Measured{ value * weight, weight } : Measured{};
-}
-
-MethodScore method_of_json(const nlohmann::json& json)
-{
-    if (!json.is_object())
-        throw Wrong{ "the scores of a method are no object" };
-    MethodScore score;
-    const nlohmann::json none = nlohmann::json::object();
-    const auto found = json.find("weights");
-    const nlohmann::json& weights = found != json.end() && found->is_object() ? *found : none;
-    for (const Metric& metric : metrics()) {
-        const auto value = json.find(metric.key);
-        if (value == json.end())
-            continue;
-        const auto weight = weights.find(metric.key);
-        score.values[metric.key] =
-            measured(number_of(*value, metric.key), weight == weights.end() ? 1 : number_of(*weight, metric.key));
-    }
-    const auto levels = json.find("error_by_level");
-    if (levels != json.end() && levels->is_array() && levels->size() == score.error_by_level.size())
-        for (std::size_t i = 0; i < levels->size(); ++i)
-            if ((*levels)[i].is_array() && (*levels)[i].size() == 2)
-                score.error_by_level[i] =
-                    measured(number_of((*levels)[i][0], "error_by_level"), number_of((*levels)[i][1], "weight"));
-    score.chromaticity = chromaticity_of_json(json, "chromaticity");
-    const auto parameters = json.find("parameters");
-    if (parameters != json.end() && !parameters->is_null())
-        score.parameters = parameters->dump();
-    return score;
-}
-
-std::string text_of(const nlohmann::json& json, const char* key)
-{
-    const auto found = json.find(key);
-    if (found == json.end() || !found->is_string())
-        throw Wrong{ std::string("an image has no text '") + key + "'" };
-    return found->get<std::string>();
-}
-
-ImageScore image_of_json(const nlohmann::json& json)
-{
-    ImageScore image;
-    if (!json.is_object())
-        throw Wrong{ "an image is no object" };
-    image.image = text_of(json, "image");
-    image.part = text_of(json, "part");
-    image.rendering = text_of(json, "rendering");
-    image.camera = text_of(json, "camera");
-    image.reference = text_of(json, "reference");
-    image.width = int(number_of(json.value("width", nlohmann::json(0)), "width"));
-    image.height = int(number_of(json.value("height", nlohmann::json(0)), "height"));
-    image.reference_chromaticity = chromaticity_of_json(json, "reference_chromaticity");
-    image.truth_chromaticity = chromaticity_of_json(json, "truth_chromaticity");
-    if (const auto notes = json.find("notes"); notes != json.end() && notes->is_array())
-        for (const nlohmann::json& note : *notes)
-            if (note.is_string())
-                image.notes.push_back(note.get<std::string>());
-    const auto methods = json.find("methods");
-    if (methods == json.end() || !methods->is_object())
-        throw Wrong{ "an image has no 'methods'" };
-    for (const auto& [name, score] : methods->items())
-        image.methods[name] = method_of_json(score);
-    return image;
 }
 
 Json interval_json(const Interval& interval)
@@ -175,24 +76,6 @@ Json group_json(const GroupSummary& group)
              { "cameras", group.cameras },     { "methods", methods } };
 }
 
-std::string csv_text(const std::string& text)
-{
-    if (text.find_first_of(",\"\r\n") == std::string::npos)
-        return text;
-    std::string quoted = "\"";
-    for (const char c : text)
-        quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + "\"";
-}
-
-std::string csv_number(double value)
-{
-    char text[32] = "";
-    if (std::isfinite(value))
-        std::snprintf(text, sizeof text, "%.7g", value);
-    return text;
-}
-
 std::string dump(const Json& json, int indent)
 {
     return json.dump(indent, ' ', false, Json::error_handler_t::replace);
@@ -218,15 +101,6 @@ Json to_json(const ImageScore& image)
              { "methods", methods } };
 }
 
-Expected<ImageScore> image_score_from_json(const nlohmann::json& json)
-{
-    try {
-        return image_of_json(json);
-    } catch (const Wrong& wrong) {
-        return Error{ wrong.what };
-    }
-}
-
 std::string to_json(const Evaluation& evaluation, int indent)
 {
     Json settings = Json::object(), images = Json::array(), groups = Json::array(), left_out = Json::array();
@@ -238,7 +112,7 @@ std::string to_json(const Evaluation& evaluation, int indent)
         images.push_back(to_json(image));
     for (const LeftOut& one : evaluation.left_out)
         left_out.push_back({ { "file", one.file }, { "reason", one.reason } });
-    return dump({ { "format", kFormat },
+    return dump({ { "format", kScoresFormat },
                   { "srisp", evaluation.version },
                   { "protocol", evaluation.protocol },
                   { "how", evaluation.protocol_text },
@@ -251,57 +125,6 @@ std::string to_json(const Evaluation& evaluation, int indent)
                   { "images", images } },
                 indent) +
            "\n";
-}
-
-Expected<Evaluation> read_evaluation(const std::string& path)
-{
-    const auto fail = [&](const std::string& reason) { return Error{ "'" + shown_text(path) + "': " + reason }; };
-    const auto text = read_file(path, kMostBytes, "'" + shown_text(path) + "'");
-    if (!text)
-        return text.error();
-    const auto json = parse_json<nlohmann::json>(*text, kMostBytes);
-    if (!json)
-        return fail(json.error().message);
-    if (!json->is_object() || json->value("format", nlohmann::json()) != kFormat)
-        return fail("is no file of scores that srispeval wrote with --json (format " + std::string(kFormat) + ")");
-    const auto images = json->find("images"), methods = json->find("methods");
-    if (images == json->end() || !images->is_array() || methods == json->end() || !methods->is_array())
-        return fail("has no 'images' and 'methods'");
-    Evaluation evaluation;
-    if (const auto protocol = json->find("protocol"); protocol != json->end() && protocol->is_string())
-        evaluation.protocol = protocol->get<std::string>();
-    for (const nlohmann::json& name : *methods)
-        if (name.is_string())
-            evaluation.methods.push_back(name.get<std::string>());
-    for (const nlohmann::json& image : *images) {
-        auto score = image_score_from_json(image);
-        if (!score)
-            return fail(score.error().message);
-        evaluation.images.push_back(std::move(*score));
-    }
-    return evaluation;
-}
-
-std::string to_csv(const Evaluation& evaluation)
-{
-    std::string text = "image,part,rendering,camera,reference,method";
-    for (const Metric& metric : metrics())
-        text += std::string(",") + metric.key;
-    text += "\n";
-    for (const ImageScore& image : evaluation.images)
-        for (const std::string& method : evaluation.methods) {
-            const auto score = image.methods.find(method);
-            if (score == image.methods.end())
-                continue;
-            text += csv_text(image.image) + "," + image.part + "," + csv_text(image.rendering) + "," +
-                    csv_text(image.camera) + "," + csv_text(image.reference) + "," + csv_text(method);
-            for (const Metric& metric : metrics()) {
-                const auto value = score->second.values.find(metric.key);
-                text += "," + (value == score->second.values.end() ? "" : csv_number(value->second.value()));
-            }
-            text += "\n";
-        }
-    return text;
 }
 
 } // namespace srisp::tool

@@ -8,9 +8,12 @@
 
 #include "scores.h"
 
-// Scores as JSON (format srisp-scores-1) and CSV. Numbers without a value are null, in CSV empty.
+// Scores as JSON. Numbers without a value are null.
 
 namespace srisp::tool {
+
+/// What such a file says of its format.
+constexpr char kScoresFormat[] = "srisp-scores-1";
 
 nlohmann::ordered_json to_json(const ImageScore& image);
 /// Error: what is missing or of a wrong type, without where.
@@ -21,8 +24,5 @@ std::string to_json(const Evaluation& evaluation, int indent = 1);
 
 /// What `compare` needs of such a file: methods and images. Errors: `'a.json': reason`.
 Expected<Evaluation> read_evaluation(const std::string& path);
-
-/// One line for each image and method.
-std::string to_csv(const Evaluation& evaluation);
 
 } // namespace srisp::tool

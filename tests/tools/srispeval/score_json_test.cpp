@@ -3,6 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
+#include "../../../tools/srispeval/score_csv.h"
 #include "scratch_folder.h"
 #include "some_scores.h"
 
