@@ -49,8 +49,8 @@ srisp_image_tool(srispbatch srisp_base srisp_recipe srisp_reference srisp_result
 target_link_libraries(srispbatch_parts PUBLIC srisp_static) # its public headers
 srisp_man_page(srispbatch --help)
 
-srisp_image_tool(srispeval srisp_base srisp_camera srisp_recipe srisp_thumbnail srisp_reference srisp_result
-    srisp_rendering)
+srisp_image_tool(srispeval srisp_base srisp_camera srisp_recipe srisp_thumbnail srisp_reference srisp_pack
+    srisp_rendering srisp_result)
 target_link_libraries(srispeval_parts PUBLIC srisp_static) # its public headers
 target_include_directories(srispeval_parts PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/srispeval)
 srisp_man_page(srispeval --help)

@@ -39,7 +39,7 @@ void render(const TestRendering& rendering, ImageView raw, MutableImageView phot
         }
 }
 
-std::vector<Matrix3> dnd_rgb_to_camera()
+static std::vector<Matrix3> dnd_matrices()
 {
     // XYZ → camera; numbers as in method.md, section 4.
     constexpr Matrix3 kXyzToCamera[] = {
@@ -52,6 +52,23 @@ std::vector<Matrix3> dnd_rgb_to_camera()
     for (const Matrix3& matrix : kXyzToCamera)
         result.push_back(row_normalized(product(matrix, kSrgbToXyz)));
     return result;
+}
+
+const std::vector<Matrix3>& dnd_rgb_to_camera()
+{
+    static const std::vector<Matrix3> matrices = dnd_matrices();
+    return matrices;
+}
+
+const std::vector<Matrix3>& dnd_camera_to_rgb()
+{
+    static const std::vector<Matrix3> matrices = [] {
+        std::vector<Matrix3> inverses = dnd_matrices();
+        for (Matrix3& matrix : inverses)
+            matrix = inverse(matrix);
+        return inverses;
+    }();
+    return matrices;
 }
 
 } // namespace srisp

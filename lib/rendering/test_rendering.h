@@ -42,7 +42,9 @@ double draw_camera_gain(Random random);
 void render(const TestRendering& rendering, ImageView raw, MutableImageView photo);
 
 /// The four cameras of the Darmstadt Noise Dataset as UPI uses them (Brooks et al. 2019): linear sRGB → camera RGB,
-/// rows sum to 1. Their inverses are what renderings take where no other camera is known.
-std::vector<Matrix3> dnd_rgb_to_camera();
+/// rows sum to 1.
+const std::vector<Matrix3>& dnd_rgb_to_camera();
+/// Their inverses, white-balanced camera RGB → linear sRGB: what renderings take where no other camera is known.
+const std::vector<Matrix3>& dnd_camera_to_rgb();
 
 } // namespace srisp

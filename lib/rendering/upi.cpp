@@ -12,7 +12,7 @@ namespace srisp {
 
 UpiParameters draw_upi(Random random)
 {
-    const std::vector<Matrix3> cameras = dnd_rgb_to_camera();
+    const std::vector<Matrix3>& cameras = dnd_rgb_to_camera();
     std::vector<double> weights;
     double sum = 0;
     for (std::size_t k = 0; k < cameras.size(); ++k)

@@ -25,7 +25,7 @@ compare     Two files that --json wrote, image by image: which differences are
             srispeval --pack PACK --help tells more.
 
 RAWS and PHOTOS are files, folders (with all folders in them), globs or @LIST (a
-file with a name on each line). Files that cannot be tested are listed and left
+file with a name on each line); of half-split also training packs. Files that cannot be tested are listed and left
 out.
 
 What is tested:

@@ -51,18 +51,13 @@ std::array<double, 3> true_gains(const Pixels& result, const Pixels& truth, bool
 /// PSNR in sRGB after both were rendered alike, in ways that the truth and the seed decide.
 double psnr_after_edits(const TestImage& image, const Pixels& result, const MeasureSettings& settings)
 {
-    static const std::vector<Matrix3> matrices = [] {
-        std::vector<Matrix3> list = dnd_rgb_to_camera();
-        std::transform(list.begin(), list.end(), list.begin(), [](const Matrix3& m) { return inverse(m); });
-        return list;
-    }();
     const RawScene scene{ image.truth.view(), image.colors.white_balance, image.colors.to_srgb };
     const std::string name = image.score.image + "/" + image.score.part;
     double sum = 0;
     Pixels of_truth(image.truth.width, image.truth.height), of_result = of_truth;
     for (int k = 0; k < settings.edits; ++k) {
         const TestRendering edit =
-            random_rendering(scene, matrices, Random(seeded_hash(settings.seed, name), 0, std::uint64_t(k)));
+            random_rendering(scene, dnd_camera_to_rgb(), Random(seeded_hash(settings.seed, name), 0, std::uint64_t(k)));
         render(edit, image.truth.view(), of_truth.mutable_view());
         render(edit, result.view(), of_result.mutable_view());
         sum += db(psnr(of_result.view(), of_truth.view()));

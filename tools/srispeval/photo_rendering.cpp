@@ -17,17 +17,6 @@ namespace {
 // What the numbers of one purpose are drawn for.
 constexpr std::uint64_t kRenderingStream = 1, kCameraGainStream = 2;
 
-const std::vector<Matrix3>& other_matrices()
-{
-    static const std::vector<Matrix3> matrices = [] {
-        std::vector<Matrix3> list = dnd_rgb_to_camera();
-        for (Matrix3& matrix : list)
-            matrix = inverse(matrix);
-        return list;
-    }();
-    return matrices;
-}
-
 Pixels our_own(const std::string& kind, const RawPicture& raw, const std::string& name, std::uint64_t seed)
 {
     const RawScene scene{ raw.pixels.view(), raw.colors.white_balance, raw.colors.to_srgb };
@@ -36,10 +25,10 @@ Pixels our_own(const std::string& kind, const RawPicture& raw, const std::string
     if (kind == "fixed") {
         rendering = fixed_rendering(scene);
     } else if (kind == "random") {
-        rendering = random_rendering(scene, other_matrices(), random);
+        rendering = random_rendering(scene, dnd_camera_to_rgb(), random);
     } else {
-        const Random of_camera(seeded_hash(seed, camera_name(raw.file->facts)), kCameraGainStream);
-        rendering = camera_rendering(scene, other_matrices(), draw_camera_gain(of_camera), random);
+        const Random of_camera(seeded_hash(seed, raw.camera), kCameraGainStream);
+        rendering = camera_rendering(scene, dnd_camera_to_rgb(), draw_camera_gain(of_camera), random);
     }
     Pixels photo(raw.pixels.width, raw.pixels.height);
     render(rendering, raw.pixels.view(), photo.mutable_view());
@@ -55,7 +44,7 @@ Expected<Pixels> embedded_photo(const std::string& path, const RawPicture& raw)
     const TemporaryFolder folder;
     const std::string file = (folder.path() / "preview.jpg").string();
     std::ofstream(file, std::ios::binary).write(jpeg->data(), std::streamsize(jpeg->size()));
-    const int width = raw.pixels.width, height = raw.pixels.height, orientation = raw.file->facts.orientation;
+    const int width = raw.pixels.width, height = raw.pixels.height, orientation = raw.orientation;
     auto upright = load_photo(file, width, height, 0);
     if (upright || orientation < 5)
         return upright;
@@ -87,6 +76,12 @@ const RenderingKind& rendering_kind(const std::string& name)
                          [&](const RenderingKind& kind) { return kind.name == name; });
 }
 
+bool is_our_own(const RenderingKind& kind)
+{
+    const std::string name = kind.name;
+    return name == "fixed" || name == "random" || name == "camera";
+}
+
 Expected<Pixels> photo_of_raw(const RenderingKind& kind, const std::string& path, const RawPicture& raw,
                               const std::string& name, std::uint64_t seed)
 {
@@ -96,7 +91,7 @@ Expected<Pixels> photo_of_raw(const RenderingKind& kind, const std::string& path
         return embedded_photo(path, raw);
     if (wanted == "libraw")
         return load_photo(path, width, height, 0);
-    if (!kind.program)
+    if (is_our_own(kind))
         return our_own(wanted, raw, name, seed);
     const TemporaryFolder folder;
     const auto photo = convert_raw(kind.program, path, folder.path());

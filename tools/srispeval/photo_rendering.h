@@ -22,6 +22,9 @@ struct RenderingKind {
 const std::vector<RenderingKind>& rendering_kinds();
 const RenderingKind& rendering_kind(const std::string& name);
 
+/// Whether it needs the RAW image alone, no file.
+bool is_our_own(const RenderingKind& kind);
+
 /// The photo of a RAW file, display-encoded sRGB of the picture's size. `name` is what chance depends on beside the
 /// seed. Errors, without the file's name: a program that fails, no embedded picture, a photo of another shape.
 Expected<Pixels> photo_of_raw(const RenderingKind& kind, const std::string& path, const RawPicture& raw,

@@ -47,10 +47,12 @@ RawColors colors_of(const CameraFacts& facts, const std::array<double, 3>& means
 Expected<RawPicture> load_raw_picture(const std::string& path, int longest)
 {
     RawPicture picture;
-    auto file = load_reference_cached(path);
+    const auto file = load_reference_cached(path);
     if (!file)
         return file.error();
-    picture.file = *file;
+    picture.camera = camera_name((*file)->facts);
+    picture.orientation = (*file)->facts.orientation;
+    picture.notes = (*file)->notes;
     Recipe recipe;
     recipe.source = path;
     recipe.action = Recipe::Action::develop; // a camera's file comes demosaiced, and not as a photo
@@ -74,7 +76,7 @@ Expected<RawPicture> load_raw_picture(const std::string& path, int longest)
         reducer.add_rows(rows.data(), end - y, spec->nchannels);
     }
     picture.pixels = oriented(reducer.take(), spec->get_int_attribute("Orientation", 1));
-    picture.colors = colors_of(picture.file->facts, picture.pixels.means());
+    picture.colors = colors_of((*file)->facts, picture.pixels.means());
     return picture;
 }
 

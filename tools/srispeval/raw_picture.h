@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
+#include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <srisp/reference.h>
 
@@ -19,11 +20,13 @@ struct RawColors {
     std::optional<Matrix3> to_xyz;                ///< camera RGB as recorded → XYZ; none: no matrix is known
 };
 
-/// A RAW file as a test sees it: linear camera RGB, 0 black and 1 saturated, demosaiced by LibRaw, upright.
+/// A RAW image as a test sees it: linear camera RGB, 0 black and 1 saturated, upright.
 struct RawPicture {
     Pixels pixels;
-    std::shared_ptr<const Reference> file; ///< its facts and thumbnail
     RawColors colors;
+    std::string camera;
+    int orientation = 1; ///< of what the file stores, as in EXIF
+    std::vector<std::string> notes;
 };
 
 /// Make and model, without the make where the model repeats it.
@@ -31,8 +34,8 @@ std::string camera_name(const CameraFacts& facts);
 
 RawColors colors_of(const CameraFacts& facts, const std::array<double, 3>& means);
 
-/// A RAW file, or a linear image that srisp wrote, no longer than `longest` pixels (area averages; 0: as it is). What
-/// is no reference is no picture either (load_reference). Errors name the file.
+/// A RAW file, demosaiced by LibRaw, or a linear image that srisp wrote, no longer than `longest` pixels (area
+/// averages; 0: as it is). What is no reference is no picture either (load_reference). Errors name the file.
 Expected<RawPicture> load_raw_picture(const std::string& path, int longest);
 
 /// A photo as srisp reads it, display-encoded sRGB in [0,1], upright, of this size; 0 × 0: no longer than `longest`.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <sstream>
 
 #include "base/shown_text.h"
 #include "metric_table.h"
@@ -83,6 +84,21 @@ std::string group_table(const Evaluation& evaluation, const GroupSummary& group)
     return result + "\n";
 }
 
+/// In lines of at most 100 bytes.
+std::string wrapped(const std::string& paragraph)
+{
+    std::string result, line;
+    std::istringstream words(paragraph);
+    for (std::string word; words >> word;) {
+        if (!line.empty() && line.size() + word.size() >= 100) {
+            result += line + "\n";
+            line.clear();
+        }
+        line += (line.empty() ? "" : " ") + word;
+    }
+    return result + line + "\n";
+}
+
 } // namespace
 
 std::string score_table(const Evaluation& evaluation, bool by_camera)
@@ -93,7 +109,12 @@ std::string score_table(const Evaluation& evaluation, bool by_camera)
             result += group_table(evaluation, group);
     if (!evaluation.methods.empty())
         result +=
-            "In brackets: bootstrap 95 % intervals over files. Last column: over " + evaluation.methods.front() + ".\n";
+            "Brackets: bootstrap 95 % intervals over files. Last column: over " + evaluation.methods.front() + ".\n";
+    for (const std::string& paragraph : evaluation.protocol_text)
+        result += "\n" + wrapped(paragraph);
+    result += "\n";
+    for (const auto& [name, value] : evaluation.settings)
+        result += name + ": " + value + "\n";
     return result;
 }
 

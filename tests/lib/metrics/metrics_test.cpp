@@ -107,6 +107,30 @@ TEST_CASE("the camera's matrix turns RAW values into the XYZ that are counted")
     CHECK(direct.intersection(through_matrix) == doctest::Approx(1));
 }
 
+TEST_CASE("the counts of several histograms add up to that of all their pixels")
+{
+    const std::vector<float> pixels{ 0.2f, 0.3f, 0.1f, 0.5f, 0.5f, 0.5f };
+    constexpr std::array<float, 9> identity{ 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+    LabHistogram first, second, both, sum;
+    first.add({ pixels.data(), 1, 1, 3, 3 }, identity);
+    second.add({ pixels.data() + 3, 1, 1, 3, 3 }, identity);
+    both.add({ pixels.data(), 2, 1, 3, 6 }, identity);
+    sum.add_counts(first.counts());
+    sum.add_counts(second.counts());
+    CHECK(sum.counts() == both.counts());
+    CHECK(sum.intersection(both) == doctest::Approx(1));
+    CHECK(first.intersection(sum) < 0.9);
+}
+
+TEST_CASE("the brightness of an image is the mean of the logs of its channel means, and black has one, too")
+{
+    const std::vector<float> pixels{ 0.1f, 0.2f, 0.4f, 0.3f, 0.2f, 0.0f };
+    CHECK(log_brightness({ pixels.data(), 2, 1, 3, 6 }) ==
+          doctest::Approx((std::log(0.2) + std::log(0.2) + std::log(0.2)) / 3));
+    const std::vector<float> black(3);
+    CHECK(log_brightness({ black.data(), 1, 1, 3, 3 }) == doctest::Approx(std::log(1e-5)));
+}
+
 TEST_CASE("the rank correlation asks for the order alone")
 {
     CHECK(rank_correlation({ 1, 2, 3, 4 }, { 10, 11, 500, 501 }) == doctest::Approx(1));
