@@ -21,7 +21,7 @@ SETS = {"real": "real RAW", "simulated": "simulated"}
 RENDERINGS = ["fixed", "random", "camera"]
 ALL_IMAGES = ["--set", "real_images=500", "--set", "real_validation_only=false", "--set", "simulated_images=0"]
 PICTURE = "1"  # of the images shown in the report
-REPORT = ["--pictures", "16", "--report-size", "2.8"]
+REPORT = ["--pictures", "10", "--report-size", "2.8"]
 # Whose means lie apart.
 THERE_AND_BACK = ["blackmagic_pocket.dng", "raspberry_pi.dng", "canon_kiss_x4.dng", "gopro_hero6.dng",
                   "canon_powershot_g2.crw", "canon_powershot_s40.crw"]
@@ -91,6 +91,10 @@ def measure_all(work):
     }
 
 
+def signed(value, digits=1):
+    return f"{value:+.{digits}f}".replace("-", "−")
+
+
 def table(head, rows):
     return "\n".join("| " + " | ".join(row) + " |" for row in [head, ["---"] * len(head)] + rows)
 
@@ -100,6 +104,10 @@ def group_of(scores, model, set_name, rendering):
     return next((g for g in groups if (g["set"], g["rendering"], g["camera"]) == (set_name, rendering, None)), None)
 
 
+def over_gain_match(group):
+    return f"{signed(group['psnr_over_gain_match_db'])} dB, {group['angle_ratio']:.2f} ×"
+
+
 def pack_rows(scores, sets=SETS):
     rows = []
     for set_name, title in sets.items():
@@ -107,7 +115,7 @@ def pack_rows(scores, sets=SETS):
             groups = [group_of(scores, model, set_name, rendering) for model in MODELS]
             base = groups[0]["gain_match"]
             rows.append([title, rendering, f"{base['psnr_db']:.1f} dB, {base['angle_degrees']:.1f}°"] +
-                        [f"{g['psnr_over_gain_match_db']:+.1f} dB, {g['angle_ratio']:.2f} ×" for g in groups])
+                        [over_gain_match(g) for g in groups])
             title = ""
     return rows
 
@@ -120,9 +128,9 @@ def developed_rows(scores):
         first, second = (group_of(scores, model, "developed", name) for model in MODELS)
         base, own = first["gain_match"], first["model"]
         rows.append([name, f"{base['psnr_db']:.1f} dB, {base['angle_degrees']:.1f}°",
-                     f"{first['psnr_over_gain_match_db']:+.1f} dB, {first['angle_ratio']:.2f} ×",
-                     f"{own['log_mean_error']:+.2f} ± {own['log_mean_error_deviation']:.2f}",
-                     f"{second['psnr_over_gain_match_db']:+.1f} dB, {second['angle_ratio']:.2f} ×"])
+                     over_gain_match(first),
+                     f"{signed(own['log_mean_error'], 2)} ± {own['log_mean_error_deviation']:.2f}",
+                     over_gain_match(second)])
     return rows
 
 
@@ -136,9 +144,9 @@ def file_rows(scores):
         row = [group["rendering"], str(group["files"]), f"{base['psnr_db'][0]:.1f} dB, {base['angle_degrees'][0]:.1f}°"]
         for name in ["upi"] + MODELS:
             mean, low, high = by_name[name]["over_baseline"]["psnr_db"]
-            interval = f" ({low:+.1f} to {high:+.1f})" if low is not None else ""
+            interval = f" ({signed(low)} to {signed(high)})" if low is not None else ""
             ratio = by_name[name]["values"]["angle_degrees"][0] / base["angle_degrees"][0]
-            row.append(f"{mean:+.1f}{interval}, {ratio:.2f} ×")
+            row.append(f"{signed(mean)}{interval}, {ratio:.2f} ×")
         rows.append(row)
     return rows
 
@@ -166,7 +174,7 @@ def facts(found, credits):
         "developed_gain_range": value_range([g["psnr_over_gain_match_db"] for g in developed]),
         "developed_angle_range": value_range([g["angle_ratio"] for g in developed], 2),
         "developed_crops": developed[0]["crops"],
-        "all_crops": group_of(found["all"], MODELS[0], "real", "fixed")["crops"],
+        "all_crops": f"{group_of(found['all'], MODELS[0], 'real', 'fixed')['crops']:,}",
         "highlights_range": value_range([-g["model"]["highlight_error"] for g in real], 2),
         "highlights_gain_match_range": value_range([-g["gain_match"]["highlight_error"] for g in real], 2),
         "back_mean": f"{back['default']['round_trip_mean_db']:.1f}",
@@ -199,7 +207,7 @@ def facts(found, credits):
         [f"{SETS[s]}, {r}", f"{m['deviation_ev']:.2f} EV", f"{100 * m['within_one_deviation']:.0f} %",
          f"{100 * m['within_two_deviations']:.0f} %"]
         for s in SETS for r in RENDERINGS for m in [groups[MODELS[0], s, r]["model"]]])
-    pair = lambda m: f"{m['highlight_error']:+.2f}, {m['highlight_error_at_gain']:+.2f}".replace("-", "−")
+    pair = lambda m: f"{signed(m['highlight_error'], 2)}, {signed(m['highlight_error_at_gain'], 2)}"
     result["highlights_table"] = table(["", "rendering", "gain match: as it is, at one gain per image"] + models, [
         [SETS[s], r, pair(groups[MODELS[0], s, r]["gain_match"])] + [pair(groups[m, s, r]["model"]) for m in MODELS]
         for s in SETS for r in RENDERINGS])

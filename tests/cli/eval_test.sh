@@ -44,6 +44,10 @@ check "the report is one page that needs nothing else" sh -c '
 check "nothing unfinished is left" sh -c '! ls -a | grep -q unfinished'
 check "no temporary files are left" nothing_left
 
+check "options before the files, repeated and as lists" sh -c '"$0" half-split --model default --model spatial \
+    --baseline gain_match,upi --baseline upi --rendering fixed raws/a.dng -q --size 64 --json order.json >/dev/null' "$evaluate"
+check "all of them count" json order.json "s['methods'] == ['gain_match', 'upi', 'default', 'spatial'] and len(i) == 2"
+
 same_scores() { # same_scores ARGUMENTS…: without pictures
     half_split --json again.json "$@" >/dev/null 2>&1
     cmp scores.json again.json
@@ -137,7 +141,7 @@ check "a table without a column" sh -c 'echo "photo,raw" >bad.csv; ! "$0" pairs 
 check "an output that is an input" says 1 "inputs are never overwritten" "$evaluate" half-split raws/a.dng --json raws/a.dng
 check "a folder that is not there" says 1 "there is no folder 'no'" "$evaluate" half-split raws/a.dng --report no/report.html
 check "scores that are none" says 1 "is no file of scores" sh -c 'echo "{}" >no.json; "$0" compare no.json scores.json' "$evaluate"
-check "help and version" sh -c '"$0" --help | grep -q "srispeval half-split RAWS" && "$0" half-split --help | grep -q Examples && "$0" --version | grep -q srispeval' "$evaluate"
+check "help and version" sh -c '"$0" --help | grep -q "srispeval half-split RAWS" && "$0" half-split --help | grep -q Examples && "$0" half-split raws/a.dng --size 64 -q --rendering fixed | grep -q "left half of each RAW" && "$0" --version | grep -q srispeval' "$evaluate"
 check "a device as an output has no file beside it" sh -c '"$0" half-split raws/a.dng -q --size 64 --json /dev/null >/dev/null && [ ! -e /dev/null.unfinished ]' "$evaluate"
 if [ -w /dev/full ]; then
     full() { exits 1 half_split --csv /dev/full >/dev/null 2>full.txt && grep -q "No space left" full.txt; }

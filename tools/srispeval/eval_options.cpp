@@ -24,16 +24,13 @@ const std::map<std::string, Job> kJobs = { { "half-split", Job::half_split },
 
 CLI::Option* add_list(CLI::App& app, const std::string& name, std::vector<std::string>& list)
 {
-    return app.add_option(name, list)
-        ->delimiter(',')
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    return app.add_option(name, list)->delimiter(',')->allow_extra_args(false);
 }
 
 void describe_evaluation(CLI::App& app, EvalOptions& options)
 {
     app.add_option("inputs", options.inputs);
-    app.add_option("--model", options.models)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option("--model", options.models)->allow_extra_args(false);
     add_list(app, "--baseline", options.baselines)->check(CLI::IsMember({ "gain_match", "upi", "none" }));
     app.add_option("--report", options.report);
     app.add_option("--json", options.json);
@@ -52,9 +49,7 @@ void describe_evaluation(CLI::App& app, EvalOptions& options)
         add_list(app, "--rendering", options.renderings)->check(CLI::IsMember(names));
     }
     if (options.job == Job::unpaired) {
-        app.add_option("--reference", options.references)
-            ->expected(1, 1000000)
-            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        app.add_option("--reference", options.references);
         app.add_option("--references", options.reference_count)->check(CLI::Range(2, 1000));
     } else {
         app.add_option("--edits", options.edits)->check(CLI::Range(0, 1000));
@@ -92,8 +87,11 @@ void check(EvalOptions& options)
         fail_usage("pairs takes one CSV file");
     if (options.job == Job::unpaired && options.references.empty())
         fail_usage("unpaired needs --reference: RAW files or folders of them");
-    if (options.baselines == std::vector<std::string>{ "none" })
-        options.baselines.clear();
+    std::vector<std::string> baselines;
+    for (const std::string& name : options.baselines)
+        if (name != "none" && std::find(baselines.begin(), baselines.end(), name) == baselines.end())
+            baselines.push_back(name);
+    options.baselines = baselines;
     if (options.models.empty())
         options.models = { "default" };
     if (options.job == Job::half_split)

@@ -182,9 +182,10 @@ int run_evaluation(const EvalOptions& options, const Protocol& protocol)
     Evaluation evaluation;
     evaluation.settings = settings_of(options, methods);
     const std::size_t images = protocol.tasks.size() * std::size_t(protocol.images_per_task);
-    const int picture_size = options.report.empty() ? 0
-                                                    : picture_side(std::min(images, std::size_t(options.pictures)),
-                                                                   methods.size(), options.report_mb);
+    const int picture_size =
+        options.report.empty()
+            ? 0
+            : picture_side(images, std::min(images, std::size_t(options.pictures)), methods.size(), options.report_mb);
     std::string settings = std::string(SRISP_VERSION) + " " + protocol.name + " " + std::to_string(picture_size);
     for (const auto& [name, value] : evaluation.settings)
         settings += "\n" + name + ": " + value;

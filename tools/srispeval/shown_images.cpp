@@ -43,13 +43,15 @@ std::vector<std::size_t> shown_images(const Evaluation& evaluation, std::size_t 
     return shown;
 }
 
-int picture_side(std::size_t images, std::size_t methods, double megabytes)
+int picture_side(std::size_t images, std::size_t shown, std::size_t methods, double megabytes)
 {
-    // Measured on photos: bytes a pixel of a linear picture and of a JPEG; what is embedded grows by a third.
-    constexpr double kEmbedded = 0.75, kLinear = 3.4, kJpeg = 0.5, kShape = 0.75;
+    // Measured on photos: bytes a pixel of a linear picture and of a JPEG, of which a third is added where they are
+    // embedded, and bytes that the page has for each image.
+    constexpr double kLinear = 3.8, kJpeg = 0.5, kEmbedded = 0.75, kPage = 4000, kShape = 0.75;
     constexpr int kLeast = 64, kMost = 320;
-    const double each = megabytes * 1e6 * kEmbedded / double(std::max<std::size_t>(images, 1));
-    const double pixels = each / (kLinear * double(methods + 2) + kJpeg);
+    const double for_pictures = std::max(megabytes * 1e6 - kPage * double(images), 0.0) * kEmbedded;
+    const double pixels =
+        for_pictures / double(std::max<std::size_t>(shown, 1)) / (kLinear * double(methods + 2) + kJpeg);
     return std::clamp(int(std::sqrt(pixels / kShape)), kLeast, kMost);
 }
 

@@ -32,6 +32,16 @@ TEST_CASE("a report shows the worst first, and where not all fit others from all
     CHECK(shown_images(evaluation, 0).empty());
 }
 
+TEST_CASE("pictures are as large as the report may be")
+{
+    CHECK(picture_side(3, 3, 3, 18) == 320);
+    CHECK(picture_side(100000, 100, 3, 18) == 64);
+    const double side = picture_side(100, 100, 3, 18), bytes = side * side * 0.75 * (3.8 * 5 + 0.5) * 4 / 3;
+    CHECK(100 * bytes < 18e6);
+    CHECK(100 * bytes > 16e6);
+    CHECK(picture_side(100, 100, 6, 18) < side);
+}
+
 TEST_CASE("linear pictures hold 16 bits, of which nine are kept")
 {
     Pixels pixels(16, 8);
