@@ -20,7 +20,7 @@ MODELS = ["default", "spatial"]
 SETS = {"real": "real RAW", "simulated": "simulated"}
 RENDERINGS = ["fixed", "random", "camera"]
 ALL_IMAGES = ["--set", "real_images=500", "--set", "real_validation_only=false", "--set", "simulated_images=0"]
-PICTURE = "1"  # of the images shown in the report
+PICTURE = "8"  # of the images shown in the report
 REPORT = ["--pictures", "10", "--report-size", "2.8"]
 # Whose means lie apart.
 THERE_AND_BACK = ["blackmagic_pocket.dng", "raspberry_pi.dng", "canon_kiss_x4.dng", "gopro_hero6.dng",
