@@ -11,7 +11,7 @@ namespace srisp::tool {
 
 namespace {
 
-constexpr std::size_t kMostColumns = 8; ///< of one table
+constexpr std::size_t kMostColumns = 9; ///< of one table
 
 /// A column of a table of methods: a metric, or the spread of the brightness.
 struct Column {
@@ -124,8 +124,9 @@ std::string group_tables(const GroupSummary& group)
                               counted(group.files, "file") + ", " + counted(group.cameras, "camera");
     std::string text;
     // Several tables: one as wide as all of it would be read through a keyhole.
-    for (std::size_t begin = 0; begin < columns.size(); begin += kMostColumns) {
-        const std::size_t end = std::min(columns.size(), begin + kMostColumns);
+    const std::size_t tables = (columns.size() + kMostColumns - 1) / kMostColumns;
+    for (std::size_t table = 0; table < tables; ++table) {
+        const std::size_t begin = columns.size() * table / tables, end = columns.size() * (table + 1) / tables;
         const std::vector<Column> part(columns.begin() + std::ptrdiff_t(begin), columns.begin() + std::ptrdiff_t(end));
         text += open_table(about + (begin > 0 ? ": further measures" : ""), "<th scope=\"col\">method</th>", part) +
                 "<tbody>\n";
