@@ -148,14 +148,16 @@ const char* verdict(const Difference& one)
 void print_table(const std::vector<Difference>& differences)
 {
     std::string title;
+    int most = 0; // images under this title
     for (const Difference& one : differences) {
-        const std::string methods = one.methods.first == one.methods.second
-                                        ? one.methods.first
-                                        : one.methods.first + " against " + one.methods.second;
-        const std::string here = one.rendering + ": " + methods + ", " + std::to_string(one.images) + " images of " +
-                                 std::to_string(one.files) + " files";
-        if (here != title)
-            std::printf("%s%s\n", title.empty() ? "" : "\n", shown_text(here, 400).c_str());
+        std::string here = one.rendering + ": " + one.methods.first;
+        if (one.methods.first != one.methods.second)
+            here += " against " + one.methods.second;
+        if (here != title) {
+            std::printf("%s%s, %d images of %d files\n", title.empty() ? "" : "\n", shown_text(here, 400).c_str(),
+                        one.images, one.files);
+            most = one.images;
+        }
         title = here;
         std::string name = one.metric->title;
         if (*one.metric->unit)
@@ -166,7 +168,10 @@ void print_table(const std::vector<Difference>& differences)
                     digits, one.difference.mean);
         if (std::isfinite(one.difference.low))
             std::printf(" (%.*f to %.*f)", digits, one.difference.low, digits, one.difference.high);
-        std::printf("  %s\n", verdict(one));
+        std::printf("  %s", verdict(one));
+        if (one.images != most)
+            std::printf(" (%d images)", one.images);
+        std::printf("\n");
     }
 }
 

@@ -65,7 +65,8 @@ private:
                 left_out.push_back({ task.name, error.what() });
             }
             const std::lock_guard lock(m_mutex);
-            if (m_failure || (pending_interrupt() && images.empty()))
+            // What a signal cut short is no result.
+            if (m_failure || (pending_interrupt() && !left_out.empty()))
                 return;
             try {
                 if (images.empty())
