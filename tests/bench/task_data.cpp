@@ -14,6 +14,7 @@ namespace {
 /// What random numbers are drawn for.
 enum Stream : std::uint64_t { kLight = 1, kTest, kTraining, kReferences, kReferencePhotos, kReferenceOfImage };
 
+constexpr int kTestExposures = 4;           // of each test photo
 constexpr std::int64_t kImagesAtOnce = 256; // keeps what lies between photo and RAW small
 
 Randoms randoms_of(int seed, std::uint64_t stream, std::int64_t first, std::int64_t end)
@@ -22,6 +23,24 @@ Randoms randoms_of(int seed, std::uint64_t stream, std::int64_t first, std::int6
     for (std::int64_t i = first; i < end; ++i)
         randoms.push_back(Random(seed, stream, i).fork(1)); // apart from the captures' numbers
     return randoms;
+}
+
+std::vector<std::size_t> training_entries(const srisp::PackedImages& images)
+{
+    std::vector<std::size_t> entries;
+    for (std::size_t i = 0; i < images.entries.size(); ++i)
+        if (!images.entries[i].validation)
+            entries.push_back(i);
+    return entries;
+}
+
+/// Each photo several times.
+std::vector<std::size_t> test_entries(const srisp::PackedImages& images)
+{
+    std::vector<std::size_t> entries;
+    for (const std::size_t i : whole_images(images, true))
+        entries.insert(entries.end(), kTestExposures, i);
+    return entries;
 }
 
 /// Images in parts, one after the other.
@@ -37,20 +56,19 @@ template<class Make> torch::Tensor in_parts(std::int64_t count, const Make& make
 
 TaskData::TaskData(const srisp::TrainingPack& pack, int size, int references)
     : m_cameras(pack.cameras()), m_names(pack.cameras().names), m_references(references),
-      m_training(photos(pack.photos(), false, size)), m_test(photos(pack.photos(), true, size))
+      m_training(photos(pack.photos(), training_entries(pack.photos()), size)),
+      m_test(photos(pack.photos(), test_entries(pack.photos()), size))
 {
     m_simulation.lowest_unevenness = m_simulation.highest_unevenness = 0; // as srispeval's test images
     if (m_training.photo.empty() || m_test.photo.empty() || !m_cameras.has(true) || !m_cameras.has(false))
         throw std::runtime_error("the pack needs photos and cameras for training and for validation");
 }
 
-TaskImages TaskData::photos(const srisp::PackedImages& images, bool validation, int size) const
+TaskImages TaskData::photos(const srisp::PackedImages& images, const std::vector<std::size_t>& entries, int size) const
 {
     TaskImages result;
     std::vector<torch::Tensor> chosen;
-    for (std::size_t i = 0; i < images.entries.size(); ++i) {
-        if (images.entries[i].validation != validation)
-            continue;
+    for (const std::size_t i : entries) {
         result.photo.push_back(images.entries[i].scene);
         chosen.push_back(area_resize(packed_image(images, i).unsqueeze(0), size, size));
     }

@@ -11,7 +11,7 @@
 /// Images for a task, and the photos that they were made of, which tell the answers: [N, 3, S, S] each.
 struct TaskImages {
     torch::Tensor photos, raws;
-    std::vector<int> photo; ///< which photo each image shows; a photo and its crops follow each other
+    std::vector<int> photo; ///< which photo each image shows; those of one photo follow each other
 };
 
 /// Where a task is to be done: a camera that no model was trained with, in one light.
@@ -22,7 +22,8 @@ struct TaskTarget {
     srisp::train::CameraColor color;
 };
 
-/// Training and test images of a pack: training images of its training photos, test images of its validation photos.
+/// Training and test images of a pack: of its training photos, whole and in parts, and of its validation photos, whole
+/// and in several exposures.
 class TaskData {
 public:
     /// Images of `size` px; each unprocessed one gets one of `references` RAW images. Throws std::runtime_error where
@@ -47,7 +48,7 @@ public:
 private:
     using Captures = std::vector<srisp::train::Capture>;
 
-    TaskImages photos(const srisp::PackedImages& images, bool validation, int size) const;
+    TaskImages photos(const srisp::PackedImages& images, const std::vector<std::size_t>& entries, int size) const;
     Captures captures(int seed, std::uint64_t stream, const TaskTarget& target, std::size_t count) const;
     torch::Tensor simulate(int seed, std::uint64_t stream, const torch::Tensor& photos, const Captures& captures) const;
     TaskImages noisy(int seed, const torch::Tensor& clean) const;

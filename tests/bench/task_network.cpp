@@ -15,7 +15,7 @@ constexpr double kGrey = 0.06; // largest difference between the display values 
 struct Convolution {
     int inputs, outputs, stride;
 };
-constexpr Convolution kConvolutions[] = { { 3, 24, 2 }, { 24, 32, 1 }, { 32, 64, 2 }, { 64, 64, 2 } };
+constexpr Convolution kConvolutions[] = { { 3, 24, 2 }, { 24, 48, 2 }, { 48, 96, 2 }, { 96, 96, 1 } };
 
 /// The name of each cell's mean colour: 0 grey, 1 warm, 2 green, 3 blue. [N, 3, H, W] → [N, H / 8, W / 8]
 torch::Tensor color_names(const torch::Tensor& photos)
@@ -94,20 +94,18 @@ TaskNetwork::TaskNetwork(int size, std::uint64_t seed)
     m_colors = register_module("colors", std::make_shared<Layer>(initial.affine({ kColors, features, 1, 1 })));
 }
 
-TaskNetwork::Logits TaskNetwork::forward(const torch::Tensor& raws, bool training) const
+TaskNetwork::Logits TaskNetwork::forward(const torch::Tensor& raws) const
 {
     torch::Tensor x = perceptual(raws);
     for (std::size_t i = 0; i < m_convolutions.size(); ++i)
         x = torch::relu(
             torch::conv2d(x, m_convolutions[i]->weight, m_convolutions[i]->bias, kConvolutions[i].stride, 1));
-    return { m_turns->affine(torch::dropout(x.flatten(1), 0.3, training)),
-             torch::conv2d(x, m_colors->weight, m_colors->bias) };
+    return { m_turns->affine(x.flatten(1)), torch::conv2d(x, m_colors->weight, m_colors->bias) };
 }
 
 std::shared_ptr<TaskNetwork> train_network(const TaskTraining& settings, const TaskImages& images, int seed,
                                            const std::function<void(int step, double loss)>& progress)
 {
-    torch::manual_seed(seed);
     auto network = std::make_shared<TaskNetwork>(settings.size, seed);
     ParameterVector parameters(*network);
     OptimizerSettings optimizer;
@@ -117,7 +115,7 @@ std::shared_ptr<TaskNetwork> train_network(const TaskTraining& settings, const T
     for (int step = 0; step < settings.steps; ++step) {
         const Question asked = question(images, random_views(settings, images, seed, step), settings.size);
         parameters.gradients().zero_();
-        const TaskNetwork::Logits logits = network->forward(asked.raws, true);
+        const TaskNetwork::Logits logits = network->forward(asked.raws);
         const auto loss = torch::cross_entropy_loss(logits.turns, asked.turns) +
                           torch::cross_entropy_loss(logits.colors, asked.colors);
         loss.backward();
@@ -138,7 +136,7 @@ TaskAnswers ask(const TaskNetwork& network, const TaskTraining& settings, const 
             for (int turns = 0; turns < kTurns; ++turns)
                 views.push_back({ static_cast<std::int64_t>(end), margin, margin, turns, false });
         const Question asked = question(images, views, settings.size);
-        const TaskNetwork::Logits logits = network.forward(asked.raws, false);
+        const TaskNetwork::Logits logits = network.forward(asked.raws);
         for (Answers* kind : { &answers.up, &answers.colors }) {
             kind->right.push_back(0);
             kind->asked.push_back(0);

@@ -29,7 +29,7 @@ public:
         torch::Tensor turns;  ///< [N, 4]
         torch::Tensor colors; ///< [N, 4, S / 8, S / 8]
     };
-    Logits forward(const torch::Tensor& raws, bool training) const;
+    Logits forward(const torch::Tensor& raws) const;
 
 private:
     std::vector<std::shared_ptr<srisp::train::Layer>> m_convolutions;
@@ -38,7 +38,7 @@ private:
 
 struct TaskTraining {
     int size = 48, steps = 2000, batch = 32;
-    double rate = 2e-3, weight_decay = 0.05;
+    double rate = 3e-3, weight_decay = 0.05;
 };
 
 /// Learns from parts of `size` px of the images, mirrored and turned at random. `progress` gets each step's loss.
