@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "task_data.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "train/samples/packed_images.h"
@@ -43,6 +44,20 @@ std::vector<std::size_t> test_entries(const srisp::PackedImages& images)
     return entries;
 }
 
+/// The photos of these entries, without RAW images.
+TaskImages photos_of(const srisp::PackedImages& images, const std::vector<std::size_t>& entries, int size)
+{
+    TaskImages result;
+    std::vector<torch::Tensor> chosen;
+    for (const std::size_t i : entries) {
+        result.photo.push_back(images.entries[i].scene);
+        chosen.push_back(area_resize(packed_image(images, i).unsqueeze(0), size, size));
+    }
+    if (!chosen.empty())
+        result.photos = torch::cat(chosen);
+    return result;
+}
+
 /// Images in parts, one after the other.
 template<class Make> torch::Tensor in_parts(std::int64_t count, const Make& make)
 {
@@ -56,25 +71,12 @@ template<class Make> torch::Tensor in_parts(std::int64_t count, const Make& make
 
 TaskData::TaskData(const srisp::TrainingPack& pack, int size, int references)
     : m_cameras(pack.cameras()), m_names(pack.cameras().names), m_references(references),
-      m_training(photos(pack.photos(), training_entries(pack.photos()), size)),
-      m_test(photos(pack.photos(), test_entries(pack.photos()), size))
+      m_training(photos_of(pack.photos(), training_entries(pack.photos()), size)),
+      m_test(photos_of(pack.photos(), test_entries(pack.photos()), size))
 {
     m_simulation.lowest_unevenness = m_simulation.highest_unevenness = 0; // as srispeval's test images
     if (m_training.photo.empty() || m_test.photo.empty() || !m_cameras.has(true) || !m_cameras.has(false))
         throw std::runtime_error("the pack needs photos and cameras for training and for validation");
-}
-
-TaskImages TaskData::photos(const srisp::PackedImages& images, const std::vector<std::size_t>& entries, int size) const
-{
-    TaskImages result;
-    std::vector<torch::Tensor> chosen;
-    for (const std::size_t i : entries) {
-        result.photo.push_back(images.entries[i].scene);
-        chosen.push_back(area_resize(packed_image(images, i).unsqueeze(0), size, size));
-    }
-    if (!chosen.empty())
-        result.photos = torch::cat(chosen);
-    return result;
 }
 
 TaskTarget TaskData::target(int seed) const
@@ -152,7 +154,7 @@ TaskImages TaskData::unprocessed(int seed, Unprocessor& method) const
     for (std::size_t i = 0; i < m_training.photo.size(); ++i) {
         std::int64_t reference = Random(seed, kReferenceOfImage, i).integer(shown.size());
         for (int tries = 0; m_training.photo[shown[reference]] == m_training.photo[i] && tries < m_references; ++tries)
-            reference = (reference + 1) % m_references;
+            reference = (reference + 1) % m_references; // another photo's
         reference_of.push_back(reference);
     }
     method.eval();

@@ -48,7 +48,6 @@ public:
 private:
     using Captures = std::vector<srisp::train::Capture>;
 
-    TaskImages photos(const srisp::PackedImages& images, const std::vector<std::size_t>& entries, int size) const;
     Captures captures(int seed, std::uint64_t stream, const TaskTarget& target, std::size_t count) const;
     torch::Tensor simulate(int seed, std::uint64_t stream, const torch::Tensor& photos, const Captures& captures) const;
     TaskImages noisy(int seed, const torch::Tensor& clean) const;

@@ -76,7 +76,8 @@ nlohmann::ordered_json json(const MeanWithInterval& value)
     return { { "mean", value.mean },
              { "seeds", value.seeds },
              { "photos_low", value.photos_low },
-             { "photos_high", value.photos_high } };
+             { "photos_high", value.photos_high },
+             { "by_seed", value.by_seed } };
 }
 
 } // namespace
@@ -109,23 +110,23 @@ std::optional<TaskResult> read_result(const std::string& path)
 MeanWithInterval mean_of(const std::vector<TaskResult>& results, const std::vector<TaskResult>* base,
                          Answers TaskAnswers::*kind)
 {
-    std::vector<double> by_seed, by_photo;
+    MeanWithInterval result;
+    std::vector<double> by_photo;
     for (std::size_t s = 0; s < results.size(); ++s) {
         const std::vector<double> of_seed =
             shares(results[s].answers.*kind, base ? &((*base)[s].answers.*kind) : nullptr);
-        by_seed.push_back(mean(of_seed));
+        result.by_seed.push_back(mean(of_seed));
         by_photo.resize(of_seed.size());
         for (std::size_t i = 0; i < of_seed.size(); ++i)
             by_photo[i] += of_seed[i] / static_cast<double>(results.size());
     }
-    MeanWithInterval result;
-    result.mean = mean(by_seed);
+    result.mean = mean(result.by_seed);
     double squares = 0;
-    for (const double value : by_seed)
+    for (const double value : result.by_seed)
         squares += (value - result.mean) * (value - result.mean);
-    const double seeds = static_cast<double>(by_seed.size());
+    const std::size_t seeds = result.by_seed.size();
     result.seeds = seeds < 2 ? std::numeric_limits<double>::quiet_NaN()
-                             : student(by_seed.size() - 1) * std::sqrt(squares / (seeds - 1) / seeds);
+                             : student(seeds - 1) * std::sqrt(squares / double(seeds - 1) / double(seeds));
     std::vector<double> means;
     srisp::train::Random random(1);
     for (int i = 0; i < kResamples; ++i) {
@@ -142,7 +143,9 @@ MeanWithInterval mean_of(const std::vector<TaskResult>& results, const std::vect
 
 std::string report_text(const TaskResults& results, const std::string& base)
 {
-    std::string report;
+    std::string report = "targets:\n";
+    for (const TaskResult& result : results.front().second)
+        report += "  " + result.target + "\n";
     const std::vector<TaskResult>* of_base = find(results, base);
     for (const auto& [title, kind] : kKinds) {
         report +=
@@ -162,6 +165,8 @@ std::string report_text(const TaskResults& results, const std::string& base)
 nlohmann::ordered_json report_json(const TaskResults& results, const std::string& base)
 {
     nlohmann::ordered_json report;
+    for (const TaskResult& result : results.front().second)
+        report["targets"].push_back(result.target);
     const std::vector<TaskResult>* of_base = find(results, base);
     for (const auto& [title, kind] : kKinds)
         for (const auto& [name, of_method] : results) {

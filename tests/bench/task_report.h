@@ -31,6 +31,7 @@ struct MeanWithInterval {
     double mean = 0;
     double seeds = 0;                       ///< half of the 95 % interval over seeds: Student's t
     double photos_low = 0, photos_high = 0; ///< the 95 % interval over test photos: bootstrap
+    std::vector<double> by_seed;
 };
 
 /// Of the right answers of one kind, or of their difference to those of `base`.
