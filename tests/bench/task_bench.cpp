@@ -17,11 +17,10 @@ using namespace srisp::train;
 
 namespace {
 
-constexpr char kBase[] = "gain_match";
 constexpr int kMargin = 8; // px by which parts are moved about
 
 struct BenchOptions {
-    std::string pack, out = "taskbench";
+    std::string pack, out = "taskbench", base = "gain_match";
     std::vector<std::string> models{ "default" }, methods;
     int first_seed = 1, seeds = 5, references = 64, threads = 0;
     TaskTraining training;
@@ -47,7 +46,7 @@ std::vector<std::string> method_names(const BenchOptions& options)
 {
     if (!options.methods.empty())
         return options.methods;
-    std::vector<std::string> names{ "photo", "upi", kBase };
+    std::vector<std::string> names{ "photo", "upi", "gain_match" };
     for (const std::string& model : options.models)
         names.push_back(srisp::model_name_of_path(model));
     names.insert(names.end(), { "simulated_others", "simulated" });
@@ -127,8 +126,8 @@ void run(const BenchOptions& options)
             of_method.push_back(*result);
         }
     }
-    std::fputs(options.json ? (report_json(results, kBase).dump(2) + "\n").c_str()
-                            : report_text(results, kBase).c_str(),
+    std::fputs(options.json ? (report_json(results, options.base).dump(2) + "\n").c_str()
+                            : report_text(results, options.base).c_str(),
                stdout);
 }
 
@@ -145,6 +144,7 @@ int main(int argc, char** argv)
         ->delimiter(',');
     app.add_option("--out", options.out, "folder of results; those that are there are not made again")
         ->capture_default_str();
+    app.add_option("--base", options.base, "the method that the others are held against")->capture_default_str();
     app.add_option("--seeds", options.seeds)->capture_default_str()->check(CLI::Range(1, 1000));
     app.add_option("--first-seed", options.first_seed)->capture_default_str()->check(CLI::Range(1, 1000));
     app.add_option("--steps", options.training.steps)->capture_default_str()->check(CLI::Range(1, 1000000));
