@@ -106,14 +106,19 @@ def exposed(pixels, index, low, high):
     return np.clip(pixels * (level / max(np.quantile(pixels.max(0), 0.98), 1e-4)), 0, 1)
 
 
-def write_dng(oiio, path, pixels, camera, matrix, white_balance):
-    rgb = np.ascontiguousarray(np.repeat(np.repeat(pixels, SIDE // pixels.shape[1], 1), SIDE // pixels.shape[2], 2)
-                               .transpose(1, 2, 0), np.float32)
+def enlarged(pixels):
+    """[3, size, size] as SIDE x SIDE pixels, [SIDE, SIDE, 3]."""
+    return np.ascontiguousarray(np.repeat(np.repeat(pixels, SIDE // pixels.shape[1], 1), SIDE // pixels.shape[2], 2)
+                                .transpose(1, 2, 0), np.float32)
+
+
+def write_dng(oiio, path, rgb, camera, matrix, neutral):
+    """Linear camera RGB [height, width, 3] as a RAW file. `camera`: make and model; `matrix`: nine numbers, XYZ to camera
+    for daylight; `neutral`: what is neutral in the scene."""
     spec = oiio.ImageSpec(rgb.shape[1], rgb.shape[0], 3, "uint16")
-    maker, model = camera.split(" ", 1)
+    maker, _, model = camera.partition(" ")
     spec.attribute("unprocess:reference_make", maker)
     spec.attribute("unprocess:reference_model", model)
-    neutral = [white_balance[1] / gain for gain in white_balance]
     for name, values in (("unprocess:xyz_to_camera", matrix), ("unprocess:neutral", neutral)):
         spec.attribute(name, oiio.TypeDesc(f"float[{len(values)}]"), [float(v) for v in values])
     spec.attribute("unprocess:xyz_to_camera_illuminant", 21)
@@ -121,7 +126,7 @@ def write_dng(oiio, path, pixels, camera, matrix, white_balance):
     spec.attribute("dng:quiet", 1)
     output = oiio.ImageOutput.create(path)
     if not output or not output.open(path, spec) or not output.write_image(rgb) or not output.close():
-        sys.exit(f"develop_raws.py: {path}: {output.geterror() if output else oiio.geterror()}")
+        sys.exit(f"{os.path.basename(sys.argv[0])}: {path}: {output.geterror() if output else oiio.geterror()}")
 
 
 def develop(program, options, names, folder):
@@ -182,7 +187,8 @@ def main():
         for index, image in chosen(pack, arguments.images):
             raw = exposed(pixels[index] / 65535.0, index, *arguments.exposure)
             name = f"{len(raws):04d}.dng"
-            write_dng(oiio, f"{folder}/{name}", raw, image["group"], known[bare(image["group"])], image["white_balance"])
+            neutral = [image["white_balance"][1] / gain for gain in image["white_balance"]]
+            write_dng(oiio, f"{folder}/{name}", enlarged(raw), image["group"], known[bare(image["group"])], neutral)
             raws.append(raw.astype(np.float32))
             cameras.append(image["group"])
             files.append(name)

@@ -18,6 +18,8 @@ import sys
 
 import numpy as np
 
+from develop_raws import write_dng
+
 WAVELENGTHS = np.arange(380, 781, 5)
 SRGB_TO_XYZ = np.array([[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750],
                         [0.0193339, 0.1191920, 0.9503041]])
@@ -85,21 +87,6 @@ def open_photos(folder, count):
     return [rows[(2 * i + 1) * len(rows) // (2 * count)] for i in range(count)]
 
 
-def write_dng(oiio, path, rgb, camera, matrix, neutral):
-    spec = oiio.ImageSpec(rgb.shape[1], rgb.shape[0], 3, "uint16")
-    maker, _, model = camera.partition(" ")
-    spec.attribute("unprocess:reference_make", maker)
-    spec.attribute("unprocess:reference_model", model)
-    for name, values in (("unprocess:xyz_to_camera", matrix.flatten()), ("unprocess:neutral", neutral / neutral[1])):
-        spec.attribute(name, oiio.TypeDesc(f"float[{len(values)}]"), [float(v) for v in values])
-    spec.attribute("unprocess:xyz_to_camera_illuminant", 21)
-    spec.attribute("oiio:ColorSpace", "srisp_camera_rgb")
-    spec.attribute("dng:quiet", 1)
-    output = oiio.ImageOutput.create(path)
-    if not output or not output.open(path, spec) or not output.write_image(rgb) or not output.close():
-        sys.exit(f"simulate_raws.py: {path}: {output.geterror() if output else oiio.geterror()}")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--shared", required=True, help="folder with data/photos and data/cameras")
@@ -131,7 +118,7 @@ def main():
         raw = np.clip(random.poisson(np.minimum(raw, 4) * FULL_WELL) / FULL_WELL, 0, 1)
         neutral = to_camera @ np.ones(3)
         write_dng(oiio, f"{arguments.out}/{photo['file'][:-4]}.dng", raw.astype(np.float32), camera["name"],
-                  world.xyz_to_camera(sensitivities), neutral)
+                  world.xyz_to_camera(sensitivities).flatten(), neutral / neutral[1])
         credits.append(f"{photo['file']}: {photo['source']}, {photo['licence']}")
     with open(f"{arguments.out}/credits.txt", "w") as file:
         file.write("\n".join(credits) + "\n")
