@@ -88,7 +88,7 @@ check "kill -9 at any time: the next run gives the same" killed
 
 # Pairs
 cat >pairs.csv <<'PAIRS'
-photo,raw,reference,rendering
+photo, RAW, reference,rendering
 photos/1.jpg,raws/far/1.dng,raws/a.dng,made
 photos/2.jpg,raws/far/2.dng,raws/a.dng,made
 photos/3.jpg,raws/far/3.dng,raws/a.dng,

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <OpenImageIO/strutil.h>
+
 #include "../common/csv_table.h"
 #include "../common/failure.h"
 #include "base/shown_text.h"
@@ -46,9 +48,16 @@ Expected<TestImages> load_pair(const Pair& pair, const EvalOptions& options, con
     return result;
 }
 
+/// "RAW" and " raw" are "raw".
+std::string plain(const std::string& name)
+{
+    return OIIO::Strutil::lower(OIIO::Strutil::strip(name));
+}
+
 std::vector<Pair> read_pairs(const std::string& path)
 {
-    const CsvTable table = read_csv(path);
+    CsvTable table = read_csv(path);
+    std::transform(table.columns.begin(), table.columns.end(), table.columns.begin(), plain);
     const auto column = [&](const std::string& name, bool needed) {
         const auto found = std::find(table.columns.begin(), table.columns.end(), name);
         if (found == table.columns.end() && needed)
@@ -63,10 +72,14 @@ std::vector<Pair> read_pairs(const std::string& path)
                       rendering = column("rendering", false);
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     std::vector<Pair> pairs;
-    for (const auto& row : table.rows)
-        pairs.push_back({ (folder / row[photo]).string(), (folder / row[raw]).string(),
-                          (folder / row[reference]).string(), row[photo],
-                          rendering < row.size() && !row[rendering].empty() ? row[rendering] : "photo" });
+    const auto field = [](const auto& row, std::size_t at) {
+        return at < row.size() ? std::string(OIIO::Strutil::strip(row[at])) : "";
+    };
+    for (const auto& row : table.rows) {
+        const std::string name = field(row, photo), kind = field(row, rendering);
+        pairs.push_back({ (folder / name).string(), (folder / field(row, raw)).string(),
+                          (folder / field(row, reference)).string(), name, kind.empty() ? "photo" : kind });
+    }
     if (pairs.empty())
         fail("'" + shown_text(path) + "' has no pairs");
     return pairs;
