@@ -134,6 +134,17 @@ private:
     Bootstrap m_bootstrap;
 };
 
+/// A rank correlation is told by references of several cameras.
+GroupSummary without_ranks(GroupSummary group)
+{
+    for (MethodSummary& method : group.methods)
+        for (const char* const rank : { key::kRankRed, key::kRankGreen, key::kRankBlue }) {
+            method.values.erase(rank);
+            method.over_baseline.erase(rank);
+        }
+    return group;
+}
+
 } // namespace
 
 std::vector<GroupSummary> summarize(const std::vector<ImageScore>& images, const std::vector<std::string>& methods,
@@ -159,7 +170,7 @@ std::vector<GroupSummary> summarize(const std::vector<ImageScore>& images, const
     for (const std::string& rendering : renderings)
         if (by_camera[rendering].size() > 1)
             for (const auto& [camera, some] : by_camera[rendering])
-                groups.push_back(Group(some, methods).summary(rendering, camera));
+                groups.push_back(without_ranks(Group(some, methods).summary(rendering, camera)));
     return groups;
 }
 

@@ -47,6 +47,17 @@ TEST_CASE("each rendering is summed up as a whole and by camera, with the first 
     CHECK(all.methods[0].error_by_level[3].mean == doctest::Approx(-0.05));
 }
 
+TEST_CASE("rank correlations over references are told of all cameras together only")
+{
+    std::vector<ImageScore> images{ some_score("a.jpg", "X", 30, 35), some_score("a.jpg", "Y", 20, 26) };
+    for (ImageScore& image : images)
+        image.methods["first"].values[key::kRankGreen] = { 0.4, 0.5 };
+    const auto groups = summarize(images, { "first" }, {});
+    CHECK(groups[0].methods[0].values.at(key::kRankGreen).mean == doctest::Approx(0.8));
+    REQUIRE(find(groups, "Y"));
+    CHECK(find(groups, "Y")->methods[0].values.count(key::kRankGreen) == 0);
+}
+
 TEST_CASE("cameras that no model has seen are a group of their own, where some are known to be seen")
 {
     const std::vector<ImageScore> images{ some_score("a.dng", "X", 30, 35), some_score("b.dng", "Y", 20, 26),
