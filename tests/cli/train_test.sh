@@ -280,4 +280,16 @@ if mount -t tmpfs -o size=80m tmpfs full 2>/dev/null; then
 else
     echo "SKIPPED ${0##*/}: mounting a tmpfs is not permitted here" >&2
 fi
+# The bench of a task that learns from RAW-like images (docs/research/downstream_task.md), in small.
+task() {
+    SRISP_MODEL_PATH=$source/configs/models "$build/bin/taskbench" --pack pack --out task --seeds 1 --steps 2 --size 32 \
+        --references 2 --batch 4 --threads 1 "$@"
+}
+learns_a_task() {
+    task >task.txt && [ "$(ls task | wc -l)" -eq 6 ] && grep -q "^  default  *[0-9]" task.txt
+}
+check "a task is learnt from what six ways made" learns_a_task
+again() { task >task_again.txt 2>task_again.log && cmp task.txt task_again.txt && ! grep -q "colours .* s (" task_again.log; }
+check "what was learnt is read again, with the same table" again
+check "results of other settings are not mixed in" says 1 "made with other settings" task --rate 0.5
 finish
