@@ -154,8 +154,8 @@ void print_table(const std::vector<Difference>& differences)
         if (one.methods.first != one.methods.second)
             here += " against " + one.methods.second;
         if (here != title) {
-            std::printf("%s%s, %d images of %d files\n", title.empty() ? "" : "\n", shown_text(here, 400).c_str(),
-                        one.images, one.files);
+            std::printf("%s%s, %d image%s of %d file%s\n", title.empty() ? "" : "\n", shown_text(here, 400).c_str(),
+                        one.images, one.images == 1 ? "" : "s", one.files, one.files == 1 ? "" : "s");
             most = one.images;
         }
         title = here;

@@ -44,14 +44,20 @@ bool is_within_noise(const Interval& difference)
     return std::isfinite(difference.low) && difference.low <= 0 && difference.high >= 0;
 }
 
+/// Of a plural.
+const char* ending(int count)
+{
+    return count == 1 ? "" : "s";
+}
+
 std::string group_title(const Evaluation& evaluation, const GroupSummary& group)
 {
     const bool photos = !evaluation.has_truth;
     std::string title = photos ? "photos with references" : "rendering " + shown_text(group.rendering);
     if (!group.camera.empty())
         title += ", " + shown_text(group.camera);
-    return title + text(": %d images of %d files, %d camera%s\n", group.images, group.files, group.cameras,
-                        group.cameras == 1 ? "" : "s");
+    return title + text(": %d image%s of %d file%s, %d camera%s\n", group.images, ending(group.images), group.files,
+                        ending(group.files), group.cameras, ending(group.cameras));
 }
 
 std::string group_table(const Evaluation& evaluation, const GroupSummary& group)
