@@ -139,6 +139,10 @@ check "only broken files" says 1 "nothing could be tested" "$evaluate" half-spli
 check "missing table" says 1 "none.csv" "$evaluate" pairs none.csv
 check "a table without a column" sh -c 'echo "photo,raw" >bad.csv; ! "$0" pairs bad.csv 2>bad.txt && grep -q "no column .reference." bad.txt' "$evaluate"
 check "an output that is an input" says 1 "inputs are never overwritten" "$evaluate" half-split raws/a.dng --json raws/a.dng
+check "an output that is one of a folder's files" says 1 "inputs are never overwritten" "$evaluate" half-split raws --csv raws/far/1.dng
+check "an output that a table names" says 1 "inputs are never overwritten" "$evaluate" pairs pairs.csv --json photos/1.jpg
+check "an output that is a reference" says 1 "inputs are never overwritten" "$evaluate" unpaired photos --reference raws --report raws/a.dng
+check "a comparison onto what is compared" says 1 "inputs are never overwritten" "$evaluate" compare scores.json pairs.json --json scores.json
 check "a folder that is not there" says 1 "there is no folder 'no'" "$evaluate" half-split raws/a.dng --report no/report.html
 check "scores that are none" says 1 "is no file of scores" sh -c 'echo "{}" >no.json; "$0" compare no.json scores.json' "$evaluate"
 check "help and version" sh -c '"$0" --help | grep -q "srispeval half-split RAWS" && "$0" half-split --help | grep -q Examples && "$0" half-split raws/a.dng --size 64 -q --rendering fixed | grep -q "left half of each RAW" && "$0" --version | grep -q srispeval' "$evaluate"

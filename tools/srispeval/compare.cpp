@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../common/failure.h"
+#include "base/input_files.h"
 #include "base/output_file.h"
 #include "base/shown_text.h"
 #include "bootstrap.h"
@@ -205,6 +206,11 @@ std::string json_of(const std::vector<Difference>& differences)
 
 int compare_evaluations(const EvalOptions& options)
 {
+    InputFiles inputs;
+    for (const std::string& path : options.inputs)
+        inputs.add("input", path);
+    if (!options.json.empty() && options.json != "-")
+        require(inputs.check_output(options.json));
     const Evaluation a = require(read_evaluation(options.inputs[0])), b = require(read_evaluation(options.inputs[1]));
     const Pairing pairing = pair_images(a, b);
     const std::vector<Difference> differences = differences_of(pairing, methods_to_compare(a, b, options));

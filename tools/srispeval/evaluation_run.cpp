@@ -155,11 +155,15 @@ std::string journal_path(const EvalOptions& options)
 }
 
 /// No output may take the place of an input.
-void check_outputs(const EvalOptions& options)
+void check_outputs(const EvalOptions& options, const Protocol& protocol)
 {
     InputFiles inputs;
-    for (const std::string& path : options.inputs)
-        inputs.add("input", path);
+    for (const std::vector<std::string>& paths : { options.inputs, options.references })
+        for (const std::string& path : paths)
+            inputs.add("input", path);
+    for (const EvalTask& task : protocol.tasks)
+        for (const std::string& path : task.files)
+            inputs.add("input", path);
     for (const std::string& path : options.models)
         inputs.add("model", path);
     for (const std::string& path : { options.report, options.json, options.csv }) {
@@ -177,7 +181,7 @@ void check_outputs(const EvalOptions& options)
 
 int run_evaluation(const EvalOptions& options, const Protocol& protocol)
 {
-    check_outputs(options);
+    check_outputs(options, protocol);
     const Methods methods = load_methods(options.baselines, options.models, options.seed);
     Evaluation evaluation;
     evaluation.settings = settings_of(options, methods);

@@ -90,7 +90,7 @@ void add_pack(const std::string& folder, const EvalOptions& options, Protocol& p
     const std::size_t before = protocol.tasks.size();
     for (const std::size_t entry : packed_test_images(*pack))
         protocol.tasks.push_back(
-            { pack->raws().entries[entry].name, pack->hash() + " " + std::to_string(entry),
+            { pack->raws().entries[entry].name, pack->hash() + " " + std::to_string(entry), std::vector<std::string>(),
               [pack, entry, &options](const AskForMemory&) { return split_packed(*pack, entry, options); } });
     if (protocol.tasks.size() == before)
         fail("pack '" + folder + "' has no RAW images for validation");
@@ -120,9 +120,10 @@ Protocol half_split_protocol(const EvalOptions& options)
             words.push_back(word);
     }
     for (const ListedFile& file : words.empty() ? std::vector<ListedFile>() : list_raw_files(words))
-        protocol.tasks.push_back({ file.name, reference_state(file.path), [file, &options](const AskForMemory& ask) {
-                                      return split_file(file, options, ask);
-                                  } });
+        protocol.tasks.push_back(
+            { file.name, reference_state(file.path), { file.path }, [file, &options](const AskForMemory& ask) {
+                 return split_file(file, options, ask);
+             } });
     return protocol;
 }
 

@@ -98,7 +98,9 @@ Protocol pairs_protocol(const EvalOptions& options)
     };
     for (const Pair& pair : read_pairs(options.inputs[0]))
         protocol.tasks.push_back(
-            { pair.name, reference_state(pair.photo) + reference_state(pair.raw) + reference_state(pair.reference),
+            { pair.name,
+              reference_state(pair.photo) + reference_state(pair.raw) + reference_state(pair.reference),
+              { pair.photo, pair.raw, pair.reference },
               [pair, &options](const AskForMemory& ask) { return load_pair(pair, options, ask); } });
     return protocol;
 }

@@ -26,8 +26,9 @@ struct TestImages {
 
 /// A piece of an evaluation that can be done by itself: one RAW file, one pair, one photo with all its references.
 struct EvalTask {
-    std::string name;  ///< of the file that it is about
-    std::string state; ///< of all files that it reads: what was found out holds while this is the same
+    std::string name;               ///< of the file that it is about
+    std::string state;              ///< of all that it reads: what was found out holds while this is the same
+    std::vector<std::string> files; ///< that it reads, by their paths
     std::function<Expected<TestImages>(const AskForMemory& ask)> make; ///< threads: safe
 };
 

@@ -61,6 +61,8 @@ private:
             std::vector<LeftOut> left_out;
             try {
                 evaluate(task, images, left_out);
+            } catch (const Failure& failure) {
+                left_out.push_back({ task.name, failure.message });
             } catch (const std::exception& error) {
                 left_out.push_back({ task.name, error.what() });
             }

@@ -71,13 +71,20 @@ Protocol unpaired_protocol(const EvalOptions& options)
         "result (rank correlation over the references, for each photo)."
     };
     std::string state;
-    for (const ListedFile& reference : references)
+    std::vector<std::string> files;
+    for (const ListedFile& reference : references) {
         state += reference_state(reference.path);
+        files.push_back(reference.path);
+    }
     protocol.images_per_task = int(references.size());
-    for (const ListedFile& file : list_files(options.inputs, photo_files()))
-        protocol.tasks.push_back(
-            { file.name, reference_state(file.path) + state,
-              [file, references, &options](const AskForMemory&) { return load_unpaired(file, references, options); } });
+    for (const ListedFile& file : list_files(options.inputs, photo_files())) {
+        EvalTask task{ file.name, reference_state(file.path) + state, files,
+                       [file, references, &options](const AskForMemory&) {
+                           return load_unpaired(file, references, options);
+                       } };
+        task.files.push_back(file.path);
+        protocol.tasks.push_back(std::move(task));
+    }
     return protocol;
 }
 
