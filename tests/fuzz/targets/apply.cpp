@@ -2,6 +2,7 @@
 // Applying parameters: odd shapes, strides, values and regions, held against the whole image.
 #include <srisp/apply.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // An image of any shape, levels and camera, written as DNG and read again: by LibRaw, floats by our decoder.
+#include <algorithm>
+
 #include <srisp/dng.h>
 
 #include "base/half_float.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kernels on every instruction set that this machine has, held against plain C++.
+#include <algorithm>
 #include <cmath>
 
 #include "force_targets.h"
