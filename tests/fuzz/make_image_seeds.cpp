@@ -72,15 +72,13 @@ void make_containers(const SeedFolder& seeds)
     seeds.add("file_description", "gif", made_image("a.gif", OIIO::TypeUInt8));
     seeds.add("file_description", "jpeg", made_image("a.jpg", OIIO::TypeUInt8));
     seeds.add("file_description", "psd",
-              std::string("8BPS\0\1\0\0\0\0\0\0\0\3\0\0\0\1\0\0\0\1\0\x8\0\3", 26) +
-                  std::string("\0\0\0\0\0\0\0\x10"
-                              "8BIM\4\xf\0\0\0\0\0\4abcd\0\0\0\0\0\0",
-                              30));
+              literal("8BPS\0\1\0\0\0\0\0\0\0\3\0\0\0\1\0\0\0\1\0\x8\0\3") +
+                  literal("\0\0\0\0\0\0\0\x10"
+                          "8BIM\4\xf\0\0\0\0\0\4abcd\0\0\0\0\0\0"));
     seeds.add("file_description", "heif",
-              std::string("\0\0\0\x18"
-                          "ftypheic\0\0\0\0mif1heic\0\0\0\x28meta\0\0\0\0\0\0\0\x1c"
-                          "iprp\0\0\0\x14ispe\0\0\0\0\0\0\0\x8\0\0\0\6",
-                          64));
+              literal("\0\0\0\x18"
+                      "ftypheic\0\0\0\0mif1heic\0\0\0\x28meta\0\0\0\0\0\0\0\x1c"
+                      "iprp\0\0\0\x14ispe\0\0\0\0\0\0\0\x8\0\0\0\6"));
 }
 
 void make_profiles(const SeedFolder& seeds)

@@ -104,9 +104,9 @@ void make_compressed(const SeedFolder& seeds)
         .set(50717, T::kLong, { 255, 255, 255 });
     lossy.pixels = jpeg;
     add_raw(seeds, "lossy_dng", "linear", lossy.bytes());
-    const std::string curve("\0\0\0\1\0\0\0\7\1\3\0\0\0\0\0\0\0\0\0\x2c"
-                            "\0\0\0\0\0\0\0\0\0\0\0\x18\0\0\0\x20\0\0\0\0\0\0\0\3\0\0\0\1\0\0\0\1\0\0\0\2\0\0\x80\0",
-                            64);
+    const std::string curve =
+        literal("\0\0\0\1\0\0\0\7\1\3\0\0\0\0\0\0\0\0\0\x2c"
+                "\0\0\0\0\0\0\0\0\0\0\0\x18\0\0\0\x20\0\0\0\0\0\0\0\3\0\0\0\1\0\0\0\1\0\0\0\2\0\0\x80\0");
     std::vector<double> opcodes;
     for (const char c : curve)
         opcodes.push_back(double(static_cast<unsigned char>(c)));
@@ -120,13 +120,12 @@ void make_heads(const SeedFolder& seeds)
 {
     const std::string rest(200, '\0');
     for (const auto& [name, head] : { std::pair<const char*, std::string>{ "fuji", "FUJIFILMCCD-RAW 0201FF383501" },
-                                      { "minolta", std::string("\0MRM\0\0\0\x40\0PRD\0\0\0\x18", 16) },
-                                      { "canon", std::string("II\x1a\0\0\0HEAPCCDR", 14) },
-                                      { "cr3", std::string("\0\0\0\x18"
-                                                           "ftypcrx \0\0\0\1crx isom",
-                                                           24) },
-                                      { "panasonic", std::string("IIU\0\x18\0\0\0", 8) },
-                                      { "olympus", std::string("IIRO\x8\0\0\0", 8) },
+                                      { "minolta", literal("\0MRM\0\0\0\x40\0PRD\0\0\0\x18") },
+                                      { "canon", literal("II\x1a\0\0\0HEAPCCDR") },
+                                      { "cr3", literal("\0\0\0\x18"
+                                                       "ftypcrx \0\0\0\1crx isom") },
+                                      { "panasonic", literal("IIU\0\x18\0\0\0") },
+                                      { "olympus", literal("IIRO\x8\0\0\0") },
                                       { "sigma", "FOVb" } })
         seeds.add("raw_formats", name, head + rest);
 }
@@ -144,5 +143,5 @@ void make_raw_seeds(const SeedFolder& seeds)
                   '\0' + std::string(24 * 22 * 2, '\1'));
     FileNoise file_noise{ { { 1e-4, 1e-4, 1e-4 }, { 1e-7, 1e-7, 1e-7 } }, "xxh128:00112233445566778899aabbccddeeff" };
     seeds.add("decoder_answer", "noise", bytes_of_noise(file_noise));
-    seeds.add("decoder_answer", "edit", std::string("\3\0\0\0\xff\xff\xff\x7f", 8));
+    seeds.add("decoder_answer", "edit", literal("\3\0\0\0\xff\xff\xff\x7f"));
 }

@@ -57,7 +57,7 @@ void make_json(const SeedFolder& seeds)
         const std::string key = query, value = query + key.size() + 1;
         seeds.add("query", key, key + '\0' + value + '\0');
     }
-    seeds.add("query", "frames", std::string("model\0s.1-9@@.tif\0params\0p.%04d.json", 37));
+    seeds.add("query", "frames", literal("model\0s.1-9@@.tif\0params\0p.%04d.json"));
     seeds.add("training_settings", "all",
               R"({"rate": 0.5, "flag": true, "target": "rgb", "init": "m.safetensors",)"
               R"( "inner": {"steps": 7, "range": [0.1, 0.9]}})");
@@ -100,8 +100,7 @@ void make_models(const SeedFolder& seeds)
             seeds.add("safetensors", type, bytes_of(path));
     }
     for (char edit = 0; edit < 8; ++edit)
-        seeds.add("model", "edit" + std::to_string(edit),
-                  std::string("\0\0\0\0\3\0", 6) + edit + std::string("\0\2\3\4\5\0", 6));
+        seeds.add("model", "edit" + std::to_string(edit), literal("\0\0\0\0\3\0") + edit + literal("\0\2\3\4\5\0"));
 }
 
 void make_tools(const SeedFolder& seeds)
@@ -116,10 +115,10 @@ void make_tools(const SeedFolder& seeds)
               "\n"
               R"({"output": "a.exr", "bytes": 13, "time": 2})"
               "\n{\"output\": \"b");
-    seeds.add("messages", "two", std::string("\2\0\0\0\3\0\0\0abc\0\0\0\0", 15));
+    seeds.add("messages", "two", literal("\2\0\0\0\3\0\0\0abc\0\0\0\0"));
     std::string task("\14\0\0\0", 4);
     for (int i = 0; i < 12; ++i)
-        task += std::string("\1\0\0\0", 4) + char('0' + i % 2);
+        task += literal("\1\0\0\0") + char('0' + i % 2);
     seeds.add("messages", "task", task);
     seeds.add("yaml_fragment", "config",
               "ocio_profile_version: 2\n\nenvironment:\n  A: b\nsearch_path: \"\"\nlooks:\n"

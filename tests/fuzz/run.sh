@@ -6,7 +6,8 @@
 #   sh tests/fuzz/run.sh --merge [TARGET...]       adds to the seeds what the corpora cover beyond them
 # Prints a table; exit code 1 where there was a finding: a crash, a leak, more than 5 s or 2 GB for one input. The input is
 # kept in the build folder, SRISP_FUZZ_BUILD_DIR (default build-fuzz), with the log and what each target has found worth
-# keeping so far. SRISP_FUZZ_JOBS targets run at a time (default: as many as there are processors).
+# keeping so far. SRISP_FUZZ_JOBS targets run at a time (default: as many as there are processors). SRISP_FUZZ_TIMEOUT: other than
+# 5 s, for a machine that does other work.
 set -eu
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -25,7 +26,7 @@ fuzz_one() {
     mkdir -p "$work/corpus/$target" "$work/findings/$target" "$work/tmp/$target" "$seeds/$target"
     ln -sf "$build/bin/fuzz_targets" "$work/$target"
     code=0
-    TMPDIR=$work/tmp/$target "$work/$target" -max_total_time="$2" -timeout=5 -rss_limit_mb=2048 -detect_leaks=1 \
+    TMPDIR=$work/tmp/$target "$work/$target" -max_total_time="$2" -timeout="${SRISP_FUZZ_TIMEOUT:-5}" -rss_limit_mb=2048 -detect_leaks=1 \
         -max_len=16384 -print_final_stats=1 -artifact_prefix="$work/findings/$target/" \
         "$work/corpus/$target" "$seeds/$target" >"$work/$target.log" 2>&1 || code=$?
     rm -rf "$work/tmp/$target"

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <string>
+
+/// All of a literal, its zero bytes too.
+template<std::size_t Size> std::string literal(const char (&text)[Size])
+{
+    return { text, Size - 1 };
+}
 
 /// Where make_fuzz_seeds puts its files: FOLDER/TARGET/NAME.
 class SeedFolder {
