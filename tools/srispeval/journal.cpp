@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "journal.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 
 #include <sys/file.h>
 #include <unistd.h>
@@ -24,6 +26,7 @@ using nlohmann::ordered_json;
 constexpr char kFormat[] = "srisp-evaluation-1";
 constexpr std::size_t kLongestLine = std::size_t(64) << 20;
 constexpr std::size_t kMostBytes = std::size_t(256) << 20; // of one picture or histogram
+constexpr int kLongestSide = 1 << 20;                      // of a picture, pixels
 
 std::string bytes_of(const std::vector<std::int64_t>& counts)
 {
@@ -33,7 +36,8 @@ std::string bytes_of(const std::vector<std::int64_t>& counts)
 std::vector<std::int64_t> counts_of(const std::string& bytes)
 {
     std::vector<std::int64_t> counts(bytes.size() / sizeof(std::int64_t));
-    std::memcpy(counts.data(), bytes.data(), counts.size() * sizeof counts[0]);
+    if (!counts.empty()) // memcpy takes no null
+        std::memcpy(counts.data(), bytes.data(), counts.size() * sizeof counts[0]);
     return counts;
 }
 
@@ -64,6 +68,27 @@ ordered_json sizes_of(const EvaluatedImage& image, const Blobs& blobs)
              { "white_balance", pictures.white_balance },
              { "color", pictures.color },
              { "bytes", list } };
+}
+
+/// What sizes_of wrote, all of it: how many bytes the image has; none where any of it is damaged. May throw
+/// json::exception.
+std::optional<std::int64_t> bytes_of_sizes(const json& sizes)
+{
+    const auto pixels = sizes.at("size").get<std::vector<json>>();
+    const auto is_side = [](const json& side) { return side.is_number_unsigned() && side <= kLongestSide; };
+    if (pixels.size() != 4 || !std::all_of(pixels.begin(), pixels.end(), is_side))
+        return {};
+    sizes.at("white_balance").get<std::array<float, 3>>();
+    sizes.at("color").get<std::array<float, 9>>();
+    std::int64_t sum = 0;
+    for (const json& one : sizes.at("bytes")) {
+        one.at(0).get_ref<const std::string&>();
+        const json& count = one.at(1);
+        if (!count.is_number_unsigned() || count > kMostBytes)
+            return {};
+        sum += count.get<std::int64_t>();
+    }
+    return sum;
 }
 
 } // namespace
@@ -130,13 +155,12 @@ void Journal::read_records(const std::string& settings)
                 auto score = image_score_from_json(image.at("score"));
                 if (!score)
                     return;
-                entries.push_back({ task, std::move(*score), offset, image.at("pictures").dump() });
-                for (const json& one : image.at("pictures").at("bytes")) {
-                    const auto bytes = one.at(1).get<std::uint64_t>();
-                    if (bytes > kMostBytes)
-                        return;
-                    offset += std::int64_t(bytes);
-                }
+                const json& pictures = image.at("pictures");
+                const auto bytes = bytes_of_sizes(pictures);
+                if (!bytes)
+                    return;
+                entries.push_back({ task, std::move(*score), offset, pictures.dump() });
+                offset += *bytes;
             }
             std::vector<LeftOut> left_out;
             for (const json& one : record->at("left_out"))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <limits>
 
 #include "base/input_file.h"
 #include "base/json_text.h"
@@ -79,6 +80,15 @@ std::string text_of(const nlohmann::json& json, const char* key)
     return found->get<std::string>();
 }
 
+/// Pixels of a side; 0 where the file does not say.
+int side_of(const nlohmann::json& json, const char* key)
+{
+    const nlohmann::json side = json.value(key, nlohmann::json(0));
+    if (!side.is_number_integer() || side < 0 || side > std::numeric_limits<int>::max())
+        throw Wrong{ std::string("'") + key + "' is no count of pixels" };
+    return side.get<int>();
+}
+
 ImageScore image_of_json(const nlohmann::json& json)
 {
     ImageScore image;
@@ -89,8 +99,8 @@ ImageScore image_of_json(const nlohmann::json& json)
     image.rendering = text_of(json, "rendering");
     image.camera = text_of(json, "camera");
     image.reference = text_of(json, "reference");
-    image.width = int(number_of(json.value("width", nlohmann::json(0)), "width"));
-    image.height = int(number_of(json.value("height", nlohmann::json(0)), "height"));
+    image.width = side_of(json, "width");
+    image.height = side_of(json, "height");
     image.reference_chromaticity = chromaticity_of_json(json, "reference_chromaticity");
     image.truth_chromaticity = chromaticity_of_json(json, "truth_chromaticity");
     if (const auto notes = json.find("notes"); notes != json.end() && notes->is_array())

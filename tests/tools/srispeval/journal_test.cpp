@@ -84,6 +84,36 @@ TEST_CASE("wherever a journal was cut off, whole records count, and the next one
     }
 }
 
+TEST_CASE("a record whose pictures are not described as they must be is damaged, and ends what counts")
+{
+    const ScratchFolder folder;
+    const std::string path = folder.path("j");
+    {
+        Journal journal(path, "settings");
+        journal.append("one", { some_image("a.dng") });
+    }
+    std::ifstream file(path, std::ios::binary);
+    const std::string whole{ std::istreambuf_iterator<char>(file), {} };
+    for (const auto& [from, to] : { std::pair<std::string, std::string>{ R"("size":[3,2,0,0])", R"("size":[3,2])" },
+                                    { R"("size":[3,)", R"("size":[1e300,)" },
+                                    { R"("size":[3,)", R"("size":["3",)" },
+                                    { R"("size":)", R"("sizes":)" },
+                                    { R"("white_balance":)", R"("other":)" },
+                                    { R"("color":)", R"("colour":)" },
+                                    { R"(["photo",14])", R"(["photo",1e300])" },
+                                    { R"(["photo",14])", R"(["photo",-14])" },
+                                    { R"(["photo",14])", R"([14,14])" } }) {
+        INFO(to);
+        std::string damaged = whole;
+        const std::size_t at = damaged.find(from);
+        REQUIRE(at != std::string::npos);
+        std::ofstream(path, std::ios::binary) << damaged.replace(at, from.size(), to);
+        CHECK(Journal(path, "settings").tasks().empty());
+    }
+    std::ofstream(path, std::ios::binary) << whole;
+    CHECK(Journal(path, "settings").tasks().size() == 1);
+}
+
 TEST_CASE("a journal of other settings, or of anything else, begins anew; two runs do not share one")
 {
     const ScratchFolder folder;

@@ -63,6 +63,11 @@ TEST_CASE("files that hold no scores are refused with what is wrong")
           std::string::npos);
     CHECK(read_error(R"({"format":"srisp-scores-1","methods":[],"images":[{"image":1}]})").find("no text 'image'") !=
           std::string::npos);
+    const std::string sizes = R"({"format":"srisp-scores-1","methods":[],"images":[{"image":"a","part":"",)"
+                              R"("rendering":"","camera":"","reference":"","methods":{},"height":)";
+    for (const char* height : { "1e300", "-1", "null", "4294967296" })
+        CHECK(read_error(sizes + height + "}]}").find("'height' is no count of pixels") != std::string::npos);
+    CHECK(read_error(sizes + "12}]}").empty());
     CHECK(!read_evaluation("/nowhere.json"));
 }
 
