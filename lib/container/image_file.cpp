@@ -9,6 +9,7 @@
 #include "base/file_bytes.h"
 #include "base/recently_kept.h"
 #include "base/regular_file.h"
+#include "base/shown_reason.h"
 #include "base/shown_text.h"
 #include "color/color_encoding.h"
 #include "container/file_description.h"
@@ -54,15 +55,6 @@ const Container& container_of(const char* reader)
     return found == std::end(kContainers) ? kOther : *found;
 }
 
-/// Readers end some messages with a line's end, and add one of their own for each layer.
-std::string one_line(std::string text)
-{
-    text.erase(text.find_last_not_of(" \n") + 1);
-    for (std::size_t at; (at = text.find('\n')) != std::string::npos;)
-        text.replace(at, 1, "; ");
-    return text;
-}
-
 Expected<std::unique_ptr<OIIO::ImageInput>> open_by(const std::string& reader, const std::string& path,
                                                     const OIIO::ImageSpec& hints)
 {
@@ -72,7 +64,7 @@ Expected<std::unique_ptr<OIIO::ImageInput>> open_by(const std::string& reader, c
     OIIO::ImageSpec spec;
     if (input && input->open(path, spec, hints))
         return input;
-    const std::string reason = one_line(input ? input->geterror() : OIIO::geterror());
+    const std::string reason = shown_reason(input ? input->geterror() : OIIO::geterror());
     return Error{ reason.empty() ? "is damaged, its reader does not say how" : reason };
 }
 
@@ -318,7 +310,7 @@ bool ImageFile::accept(bool read, int y, void* data, std::size_t bytes)
 {
     if (read && !m_inner->has_error())
         return true;
-    std::string reason = one_line(m_inner->geterror());
+    std::string reason = shown_reason(m_inner->geterror());
     if (read && !m_notes.empty())
         return true; // told already
     if (std::strcmp(format_name(), "jpeg") == 0) {

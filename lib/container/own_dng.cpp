@@ -111,7 +111,7 @@ std::string find_truncation(const TiffTags& tags, const TiffFolder& image, std::
         end = std::max(end, offsets[i] + counts[i]);
     if (end <= double(file_size))
         return "";
-    return "truncated: image data end at byte " + std::to_string(std::uint64_t(end)) + ", the file has " +
+    return "truncated: image data end at byte " + std::to_string(whole_number(end)) + ", the file has " +
            std::to_string(file_size);
 }
 

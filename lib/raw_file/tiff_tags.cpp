@@ -38,6 +38,12 @@ static bool is_tiff(const unsigned char* data, std::size_t size)
                                     [&](const char* number) { return std::memcmp(data, number, 4) == 0; });
 }
 
+std::uint64_t whole_number(double value)
+{
+    constexpr std::uint64_t kMost = std::uint64_t(1) << 53;
+    return !(value > 0) ? 0 : value < double(kMost) ? std::uint64_t(value) : kMost;
+}
+
 TiffTags::TiffTags(const unsigned char* data, std::size_t size) : m_data(data), m_size(size)
 {
     if (!is_tiff(data, size))
@@ -53,8 +59,11 @@ TiffFolder TiffTags::linked_folder(const TiffFolder& folder, std::uint16_t tag) 
 {
     TiffFolder linked;
     if (folder.find(tag)) {
-        linked.offset = std::uint32_t(value(folder, tag, 0));
-        read_folder(linked.offset, linked);
+        const std::uint64_t offset = whole_number(value(folder, tag, 0));
+        if (offset < m_size) {
+            linked.offset = std::uint32_t(offset);
+            read_folder(linked.offset, linked);
+        }
     }
     return linked;
 }

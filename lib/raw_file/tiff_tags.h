@@ -8,6 +8,10 @@
 
 namespace srisp {
 
+/// A tag's value where a whole number is meant, as an offset, which may be any double: 0 for what is less or NaN, at
+/// most 2⁵³.
+std::uint64_t whole_number(double value);
+
 /// One tag of a TIFF folder: where its values lie.
 struct TiffTag {
     std::uint16_t tag, type;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/shown_text.h"
 #include "camera/dng_camera.h"
 #include "jpeg/jpeg_data.h"
 #include "raw_file/tiff_numbers.h"
@@ -205,10 +206,14 @@ Status DngReader::check_storage()
     const std::vector<double> counts = m_tags.values(image(), tiled ? kTileByteCounts : kStripByteCounts);
     if (offsets.empty() || offsets.size() != counts.size())
         return Error{ "DNG without image data" };
-    for (std::size_t i = 0; i < offsets.size(); ++i)
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+        if (!(offsets[i] >= 0 && counts[i] >= 0))
+            return Error{ "DNG with image data at byte " + shown_number(offsets[i]) + ", " + shown_number(counts[i]) +
+                          " bytes long" };
         if (offsets[i] + counts[i] > double(m_file.size))
-            return Error{ "truncated: image data end at byte " + std::to_string(std::uint64_t(offsets[i] + counts[i])) +
+            return Error{ "truncated: image data end at byte " + std::to_string(whole_number(offsets[i] + counts[i])) +
                           ", the file has " + std::to_string(m_file.size) };
+    }
     if (m_dng.is_float)
         return {}; // libtiff decodes these
     const auto jpeg = jpeg_header(m_file.data.get() + std::size_t(offsets[0]), std::size_t(counts[0]));
@@ -259,7 +264,7 @@ Status DngReader::find_lossy_data(bool tiled, const std::vector<double>& offsets
     for (std::size_t i = 0; i < columns * rows; ++i)
         data.blocks.push_back({ std::size_t(offsets[i]), std::size_t(counts[i]) });
     for (const double value : m_tags.values(image(), kLinearizationTable))
-        data.linearization.push_back(std::uint16_t(std::clamp(value, 0.0, 65535.0)));
+        data.linearization.push_back(std::uint16_t(std::min<std::uint64_t>(whole_number(value), 65535)));
     data.opcodes = m_tags.bytes(image(), kOpcodeList2);
     m_dng.lossy = std::move(data);
     return {};

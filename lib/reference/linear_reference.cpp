@@ -12,6 +12,7 @@
 #include <srisp/metadata.h>
 #include <srisp/thumbnail.h>
 
+#include "base/shown_reason.h"
 #include "base/shown_text.h"
 #include "container/image_limits.h"
 #include "record/record.h"
@@ -44,7 +45,7 @@ Status check_kind(const OIIO::ImageSpec& spec, bool tiff)
                       "file, or an EXR or TIFF that srisp wrote" };
     } else if (OIIO::Strutil::istarts_with(encoding, "sRGB") || OIIO::Strutil::istarts_with(encoding, "Rec709") ||
                OIIO::Strutil::istarts_with(encoding, "Gamma")) {
-        return Error{ "is display-encoded (colour space '" + encoding +
+        return Error{ "is display-encoded (colour space '" + shown_text(encoding) +
                       "') and cannot be a reference: give a RAW file" };
     }
     if (spec.deep)
@@ -108,7 +109,8 @@ private:
                               : m_input.read_scanlines(0, 0, y + begin, y + end, 0, m_first, m_first + m_count,
                                                        OIIO::TypeFloat, m_stored.data());
         if (!read)
-            return Error{ "damaged or truncated at row " + std::to_string(begin) + ": " + m_input.geterror() };
+            return Error{ "damaged or truncated at row " + std::to_string(begin) + ": " +
+                          shown_reason(m_input.geterror()) };
         for (int row = begin; row < end; ++row)
             if (Status status = add_row(row, m_stored.data() + std::size_t(row - begin) * row_values()); !status)
                 return status;
@@ -173,7 +175,7 @@ Expected<LinearReference> read_linear_reference(const std::string& path, const s
         return Error{ "OpenImageIO has no reader for " + format };
     OIIO::ImageSpec spec;
     if (!input->open(path, spec))
-        return Error{ "can't be opened as " + format + ": " + input->geterror() };
+        return Error{ "can't be opened as " + format + ": " + shown_reason(input->geterror()) };
     if (Status status = check_size(spec); !status)
         return status.error();
     std::error_code unknown;
@@ -186,7 +188,8 @@ Expected<LinearReference> read_linear_reference(const std::string& path, const s
         return status.error();
     const std::vector<int> channels = rgb_channels(spec);
     if (channels.empty())
-        return Error{ "image without channels R, G, B (it has " + OIIO::Strutil::join(spec.channelnames, ", ") + ")" };
+        return Error{ "image without channels R, G, B (it has " +
+                      shown_text(OIIO::Strutil::join(spec.channelnames, ", ")) + ")" };
 
     RowReader reader(*input, channels);
     if (Status status = reader.read_all(); !status)

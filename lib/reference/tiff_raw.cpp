@@ -19,7 +19,7 @@ const char kHighEfficiency[] = "CONTACT_INTOPIX"; // near the start of Nikon's H
 
 int integer(const TiffTags& tags, const TiffFolder& folder, std::uint16_t tag)
 {
-    return int(std::clamp(tags.value(folder, tag, 0), 0.0, 65535.0));
+    return int(std::min<std::uint64_t>(whole_number(tags.value(folder, tag, 0)), 65535));
 }
 
 /// What kind of RAW image a folder holds; empty for other images. 9 is JBIG in other TIFFs.
@@ -42,11 +42,11 @@ std::string image_kind(const TiffTags& tags, const TiffFolder& folder)
 bool is_high_efficiency(const FileBytes& file, const TiffTags& tags, const TiffFolder& folder)
 {
     constexpr std::size_t kLook = 256;
-    const double offset = tags.value(folder, kStripOffsets, -1);
-    if (integer(tags, folder, kCompression) != kNikon || offset < 0 || offset >= double(file.size))
+    const std::size_t offset = whole_number(tags.value(folder, kStripOffsets, double(file.size)));
+    if (integer(tags, folder, kCompression) != kNikon || offset >= file.size)
         return false;
-    const unsigned char* begin = file.data.get() + std::size_t(offset);
-    const unsigned char* end = begin + std::min(kLook, file.size - std::size_t(offset));
+    const unsigned char* begin = file.data.get() + offset;
+    const unsigned char* end = begin + std::min(kLook, file.size - offset);
     return std::search(begin, end, kHighEfficiency, kHighEfficiency + std::strlen(kHighEfficiency)) != end;
 }
 

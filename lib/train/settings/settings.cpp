@@ -240,7 +240,7 @@ Expected<json> parse_assignment(const std::string& assignment)
 {
     const std::size_t equals = assignment.find('=');
     if (equals == 0 || equals == std::string::npos)
-        return Error{ "--set " + assignment + ": expected key=value" };
+        return Error{ "--set " + shown_text(assignment) + ": expected key=value" };
     const std::string text = assignment.substr(equals + 1);
     Expected<json> value = parse_json<json>(text);
     if (!value)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 #include <OpenImageIO/imageio.h>
@@ -7,6 +9,7 @@
 #include <srisp/reference.h>
 #include <srisp/thumbnail.h>
 
+#include "base/shown_text.h"
 #include "record/record.h"
 #include "scratch_folder.h"
 #include "shared_files.h"
@@ -137,6 +140,28 @@ TEST_CASE("Images that are no reference are refused, each with its own message")
         // The content decides, not the name.
         std::filesystem::rename(path, folder.path("renamed.dng"));
         CHECK(refusal(folder.path("renamed.dng")).find(std::string("is a ") + type) == 0);
+    }
+}
+
+TEST_CASE("What OpenEXR quotes of a damaged file comes into messages as text that can be shown")
+{
+    const ScratchFolder folder;
+    OIIO::ImageSpec spec(4, 4, 3, OIIO::TypeHalf);
+    spec.channelnames = { "B", "G", "channel" };
+    write(folder.path("a.exr"), spec, ramp(spec));
+    std::ifstream file(folder.path("a.exr"), std::ios::binary);
+    std::string bytes{ std::istreambuf_iterator<char>(file), {} };
+    const std::size_t name = bytes.find("channel", bytes.find("chlist"));
+    REQUIRE(name != std::string::npos);
+    bytes.replace(name, 7, "\x95\x1b[2J\n\xff");
+    for (const char type : { 1, 99 }) { // half; none, which OpenEXR refuses with the name
+        bytes[name + 8] = type;
+        std::ofstream(folder.path("b.exr"), std::ios::binary) << bytes;
+        const std::string message = refusal(folder.path("b.exr"));
+        INFO(message);
+        CHECK(message != "(it loaded)");
+        CHECK(valid_utf8(message) == message);
+        CHECK(message.find_first_of("\n\x1b") == std::string::npos);
     }
 }
 
