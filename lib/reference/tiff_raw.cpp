@@ -6,6 +6,7 @@
 
 #include <libraw/libraw_version.h>
 
+#include "base/shown_text.h"
 #include "raw_file/tiff_numbers.h"
 #include "raw_file/tiff_tags.h"
 
@@ -59,7 +60,7 @@ std::string tiff_raw_name(const FileBytes& file)
         return "";
     const TiffFolder& first = tags.folders()[0];
     const std::string model = tags.text(first, kModel).empty() ? tags.text(first, kMake) : tags.text(first, kModel);
-    const std::string what = "a RAW file" + (model.empty() ? "" : " of '" + model + "'") + " (TIFF with ";
+    const std::string what = "a RAW file" + (model.empty() ? "" : " of '" + shown_text(model) + "'") + " (TIFF with ";
     for (const TiffFolder& folder : tags.folders())
         if (const std::string kind = image_kind(tags, folder); !kind.empty())
             return what + kind + ", compression " + std::to_string(integer(tags, folder, kCompression)) + ")";

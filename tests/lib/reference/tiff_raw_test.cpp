@@ -2,6 +2,8 @@
 // RAW files inside TIFF that nothing here decodes must be called that, not photos.
 #include "reference/tiff_raw.h"
 
+#include <algorithm>
+
 #include <srisp/reference.h>
 
 #include "lib/reference/synthetic_dng.h"
@@ -63,6 +65,20 @@ TEST_CASE("A camera's TIFF that LibRaw does not decode is called a RAW file with
                                            std::to_string(compression) + ") that LibRaw "));
             CHECK(message.find("display-encoded") == std::string::npos);
         }
+}
+
+TEST_CASE("A camera's name in a message is shortened, and text that can be shown")
+{
+    SyntheticDng tiff = camera_tiff(12345);
+    std::vector<double> name{ 'Z', 27, 0xff };
+    name.resize(5000, 'a');
+    tiff.set(272, T::kAscii, name);
+    const std::string bytes = tiff.bytes();
+    const std::shared_ptr<unsigned char[]> copy(new unsigned char[bytes.size()]);
+    std::copy(bytes.begin(), bytes.end(), copy.get());
+    const std::string shown = tiff_raw_name({ copy, bytes.size() });
+    CHECK(starts_with(shown, "a RAW file of 'Z\\x1b\\xffaaa"));
+    CHECK(shown.size() < 300);
 }
 
 TEST_CASE("Nikon's high-efficiency compression is refused before LibRaw takes it for another one")

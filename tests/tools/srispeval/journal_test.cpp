@@ -103,7 +103,8 @@ TEST_CASE("a record whose pictures are not described as they must be is damaged,
                                     { R"(["photo",14])", R"(["photo",1e300])" },
                                     { R"(["photo",14])", R"(["photo",-14])" },
                                     { R"(["photo",14])", R"([14,14])" } }) {
-        INFO(to);
+        const std::string& shown = to;
+        INFO(shown);
         std::string damaged = whole;
         const std::size_t at = damaged.find(from);
         REQUIRE(at != std::string::npos);
