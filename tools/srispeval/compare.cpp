@@ -16,6 +16,7 @@
 #include "bootstrap.h"
 #include "metric_table.h"
 #include "score_json.h"
+#include "score_words.h"
 
 namespace srisp::tool {
 
@@ -83,18 +84,10 @@ Pairing pair_images(const Evaluation& a, const Evaluation& b)
     return pairing;
 }
 
-/// Sums of one measure over the images of each file.
-struct FileSums {
-    std::vector<Measured> first, second;
-};
-
 Measured value_of(const ImageScore& image, const std::string& method, const std::string& key)
 {
     const auto score = image.methods.find(method);
-    if (score == image.methods.end())
-        return {};
-    const auto value = score->second.values.find(key);
-    return value == score->second.values.end() ? Measured{} : value->second;
+    return score == image.methods.end() ? Measured{} : score->second.value(key);
 }
 
 std::vector<Difference> differences_of(const Pairing& pairing, const std::vector<MethodPair>& methods)
@@ -108,7 +101,7 @@ std::vector<Difference> differences_of(const Pairing& pairing, const std::vector
         const FileCounts once(files.size(), 1);
         for (const MethodPair& pair : methods)
             for (const Metric& metric : metrics()) {
-                FileSums sums{ std::vector<Measured>(files.size()), std::vector<Measured>(files.size()) };
+                PerFile of_first(files.size()), of_second(files.size());
                 int compared = 0;
                 for (const auto& [a, b] : images) {
                     const Measured first = value_of(*a, pair.first, metric.key),
@@ -116,17 +109,14 @@ std::vector<Difference> differences_of(const Pairing& pairing, const std::vector
                     if (first.weight == 0 || second.weight == 0)
                         continue;
                     ++compared;
-                    Measured &of_a = sums.first[files[a->image]], &of_b = sums.second[files[a->image]];
-                    of_a.sum += first.sum;
-                    of_a.weight += first.weight;
-                    of_b.sum += second.sum;
-                    of_b.weight += second.weight;
+                    of_first[files[a->image]] += first;
+                    of_second[files[a->image]] += second;
                 }
                 if (compared == 0)
                     continue;
-                result.push_back({ rendering, pair, &metric, compared, int(files.size()), pooled(sums.first, once),
-                                   pooled(sums.second, once), bootstrap.interval([&](const auto& counts) {
-                                       return pooled(sums.second, counts) - pooled(sums.first, counts);
+                result.push_back({ rendering, pair, &metric, compared, int(files.size()), pooled(of_first, once),
+                                   pooled(of_second, once), bootstrap.interval([&](const auto& counts) {
+                                       return pooled(of_second, counts) - pooled(of_first, counts);
                                    }) });
             }
     }
@@ -138,7 +128,7 @@ const char* verdict(const Difference& one)
     const Interval& d = one.difference;
     if (!std::isfinite(d.low))
         return "one file only: no interval";
-    if (d.low <= 0 && d.high >= 0)
+    if (is_within_noise(d))
         return "within the noise";
     const double better = one.metric->better == Better::near_zero ? std::fabs(one.first) - std::fabs(one.second)
                           : one.metric->better == Better::lower   ? -d.mean
@@ -155,17 +145,13 @@ void print_table(const std::vector<Difference>& differences)
         if (one.methods.first != one.methods.second)
             here += " against " + one.methods.second;
         if (here != title) {
-            std::printf("%s%s, %d image%s of %d file%s\n", title.empty() ? "" : "\n", shown_text(here, 400).c_str(),
-                        one.images, one.images == 1 ? "" : "s", one.files, one.files == 1 ? "" : "s");
+            std::printf("%s%s, %s of %s\n", title.empty() ? "" : "\n", shown_text(here, 400).c_str(),
+                        counted(one.images, "image").c_str(), counted(one.files, "file").c_str());
             most = one.images;
         }
         title = here;
-        std::string name = one.metric->title;
-        if (*one.metric->unit)
-            name += std::string(", ") + one.metric->unit;
-        const auto extra = std::count_if(name.begin(), name.end(), [](char c) { return (c & 0xc0) == 0x80; });
         const int digits = one.metric->digits;
-        std::printf("  %-*s %9.*f %9.*f  %+.*f", int(20 + extra), name.c_str(), digits, one.first, digits, one.second,
+        std::printf("  %s %9.*f %9.*f  %+.*f", padded_title(*one.metric).c_str(), digits, one.first, digits, one.second,
                     digits, one.difference.mean);
         if (std::isfinite(one.difference.low))
             std::printf(" (%.*f to %.*f)", digits, one.difference.low, digits, one.difference.high);
@@ -174,11 +160,6 @@ void print_table(const std::vector<Difference>& differences)
             std::printf(" (%d images)", one.images);
         std::printf("\n");
     }
-}
-
-Json number(double value)
-{
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 std::string json_of(const std::vector<Difference>& differences)
@@ -191,11 +172,11 @@ std::string json_of(const std::vector<Difference>& differences)
                          { "measure", one.metric->key },
                          { "images", one.images },
                          { "files", one.files },
-                         { "first_mean", number(one.first) },
-                         { "second_mean", number(one.second) },
-                         { "difference", number(one.difference.mean) },
-                         { "low", number(one.difference.low) },
-                         { "high", number(one.difference.high) },
+                         { "first_mean", json_number(one.first) },
+                         { "second_mean", json_number(one.second) },
+                         { "difference", json_number(one.difference.mean) },
+                         { "low", json_number(one.difference.low) },
+                         { "high", json_number(one.difference.high) },
                          { "verdict", verdict(one) } });
     return Json{ { "format", "srisp-comparison-1" }, { "differences", list } }.dump(1, ' ', false,
                                                                                     Json::error_handler_t::replace) +

@@ -41,14 +41,6 @@ private:
     Status m_status;
 };
 
-EvaluatedImage::LabCounts lab_counts(const Pixels& result, const Pixels& wanted, const Matrix3& to_xyz)
-{
-    LabHistogram of_result, of_wanted;
-    of_result.add(result.view(), to_xyz);
-    of_wanted.add(wanted.view(), to_xyz);
-    return { of_result.counts(), of_wanted.counts() };
-}
-
 std::array<double, 3> log_means(const Pixels& pixels)
 {
     std::array<double, 3> means = pixels.means();
@@ -94,11 +86,9 @@ Expected<EvaluatedImage> evaluate_image(const TestImage& image, const Methods& m
         const auto result = method->unprocess(image.photo, image.reference, key);
         if (!result)
             return Error{ method->name + ": " + result.error().message };
+        LabCounts* const lab = image.colors.to_xyz ? &evaluated.lab[method->name] : nullptr;
         score.methods[method->name] =
-            has_truth ? measure_result(image, *result, measuring) : measure_unpaired(image, *result);
-        if (image.colors.to_xyz)
-            evaluated.lab[method->name] =
-                lab_counts(result->raw, has_truth ? image.truth : image.reference, *image.colors.to_xyz);
+            has_truth ? measure_result(image, *result, measuring, lab) : measure_unpaired(image, *result, lab);
         evaluated.log_means[method->name] = log_means(result->raw);
         if (settings.longest > 0)
             encoder.linear(result->raw, pictures.results[method->name]);

@@ -18,11 +18,7 @@ namespace srisp::tool {
 struct EvaluatedImage {
     ImageScore score;
     ImagePictures pictures;
-    /// By method: what the Lab histograms of result and of truth (else reference) count. Empty where the camera's
-    /// matrix is not known.
-    struct LabCounts {
-        std::vector<std::int64_t> result, wanted;
-    };
+    /// By method; absent where the camera's matrix is not known.
     std::map<std::string, LabCounts> lab;
     /// ln of the channel means, of the reference and of each method's result.
     std::array<double, 3> reference_log_means{};

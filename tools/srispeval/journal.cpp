@@ -252,10 +252,10 @@ ImagePictures Journal::pictures(const Entry& entry) const
     return pictures;
 }
 
-std::map<std::string, EvaluatedImage::LabCounts> Journal::lab(const Entry& entry) const
+std::map<std::string, LabCounts> Journal::lab(const Entry& entry) const
 {
     const std::string of_result = "lab result ", of_wanted = "lab wanted ";
-    std::map<std::string, EvaluatedImage::LabCounts> lab;
+    std::map<std::string, LabCounts> lab;
     std::int64_t offset = entry.offset;
     const json sizes = require(parse_json<json>(entry.sizes));
     for (const json& one : sizes["bytes"]) {

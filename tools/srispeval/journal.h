@@ -44,7 +44,7 @@ public:
     };
     const std::vector<Entry>& entries() const { return m_entries; }
     ImagePictures pictures(const Entry& entry) const;
-    std::map<std::string, EvaluatedImage::LabCounts> lab(const Entry& entry) const;
+    std::map<std::string, LabCounts> lab(const Entry& entry) const;
 
     /// Removes the file: everything that it holds is in its place.
     void remove();

@@ -83,6 +83,16 @@ std::array<Measured, kLevels> errors_by_level(const Pixels& result, const Pixels
     return levels;
 }
 
+Measured lab_intersection(ImageView result, ImageView wanted, const Matrix3& to_xyz, LabCounts* lab)
+{
+    LabHistogram of_result, of_wanted;
+    of_result.add(result, to_xyz);
+    of_wanted.add(wanted, to_xyz);
+    if (lab)
+        *lab = { of_result.counts(), of_wanted.counts() };
+    return one(of_result.intersection(of_wanted));
+}
+
 void measure_deviation(MethodScore& score, double log_error, float log_deviation)
 {
     const double error = std::fabs(log_error) / std::max(log_deviation, 1e-6f);
@@ -102,7 +112,8 @@ std::optional<Chromaticity> chromaticity_of(const Pixels& pixels)
     return Chromaticity{ std::log(means[0] / means[1]), std::log(means[2] / means[1]) };
 }
 
-MethodScore measure_result(const TestImage& image, const MethodResult& result, const MeasureSettings& settings)
+MethodScore measure_result(const TestImage& image, const MethodResult& result, const MeasureSettings& settings,
+                           LabCounts* lab)
 {
     const ImageView raw = result.raw.view(), truth = image.truth.view();
     MethodScore score;
@@ -115,10 +126,7 @@ MethodScore measure_result(const TestImage& image, const MethodResult& result, c
     score.values[key::kAngle] = { angle.sum_degrees, double(angle.pixels) };
     if (image.colors.to_xyz) {
         score.values[key::kDeltaE] = one(mean_delta_e2000(raw, truth, *image.colors.to_xyz));
-        LabHistogram of_result, of_truth;
-        of_result.add(raw, *image.colors.to_xyz);
-        of_truth.add(truth, *image.colors.to_xyz);
-        score.values[key::kLab] = one(of_result.intersection(of_truth));
+        score.values[key::kLab] = lab_intersection(raw, truth, *image.colors.to_xyz, lab);
     }
     const double log_error = log_brightness(raw) - log_brightness(truth);
     score.values[key::kBrightness] = one(log_error);
@@ -136,17 +144,14 @@ MethodScore measure_result(const TestImage& image, const MethodResult& result, c
     return score;
 }
 
-MethodScore measure_unpaired(const TestImage& image, const MethodResult& result)
+MethodScore measure_unpaired(const TestImage& image, const MethodResult& result, LabCounts* lab)
 {
     MethodScore score;
     score.parameters = result.parameters;
     score.chromaticity = chromaticity_of(result.raw);
-    if (image.colors.to_xyz) {
-        LabHistogram of_result, of_reference;
-        of_result.add(result.raw.view(), *image.colors.to_xyz);
-        of_reference.add(image.reference.view(), *image.colors.to_xyz);
-        score.values[key::kLab] = one(of_result.intersection(of_reference));
-    }
+    if (image.colors.to_xyz)
+        score.values[key::kLab] =
+            lab_intersection(result.raw.view(), image.reference.view(), *image.colors.to_xyz, lab);
     if (result.log_deviation)
         score.values[key::kDeviation] = one(*result.log_deviation / std::log(2.0));
     return score;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <srisp/metrics.h>
 
@@ -20,10 +21,17 @@ struct MeasureSettings {
 /// Log chromaticity of the mean; none where a channel is black.
 std::optional<Chromaticity> chromaticity_of(const Pixels& pixels);
 
-/// How far a result is from the image's truth.
-MethodScore measure_result(const TestImage& image, const MethodResult& result, const MeasureSettings& settings);
+/// What the Lab histograms of a result and of its truth (else its reference) count. Empty where the camera's matrix is
+/// not known.
+struct LabCounts {
+    std::vector<std::int64_t> result, wanted;
+};
 
-/// Without a truth: what can be said of the result beside its reference.
-MethodScore measure_unpaired(const TestImage& image, const MethodResult& result);
+/// How far a result is from the image's truth. `lab` may be null.
+MethodScore measure_result(const TestImage& image, const MethodResult& result, const MeasureSettings& settings,
+                           LabCounts* lab = nullptr);
+
+/// Without a truth: what can be said of the result beside its reference. `lab` may be null.
+MethodScore measure_unpaired(const TestImage& image, const MethodResult& result, LabCounts* lab = nullptr);
 
 } // namespace srisp::tool

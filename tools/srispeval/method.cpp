@@ -11,6 +11,7 @@
 
 #include "../common/failure.h"
 #include "base/hashes.h"
+#include "rendering/rendering_steps.h"
 #include "rendering/upi.h"
 
 namespace srisp::tool {
@@ -18,11 +19,6 @@ namespace srisp::tool {
 namespace {
 
 constexpr float kGamma = 2.2f;
-
-float unit_clamped(float v)
-{
-    return std::clamp(v, 0.0f, 1.0f);
-}
 
 std::string json_text(const Vector3& gains, const Matrix3* matrix)
 {

@@ -12,11 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value)
-{
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json chromaticity_json(const std::optional<Chromaticity>& chromaticity)
 {
     return chromaticity ? Json(*chromaticity) : Json(nullptr);
@@ -29,12 +24,12 @@ Json method_json(const MethodScore& score)
         const auto value = score.values.find(metric.key);
         if (value == score.values.end())
             continue;
-        json[metric.key] = number(value->second.value());
+        json[metric.key] = json_number(value->second.value());
         if (value->second.weight != 1)
             weights[metric.key] = value->second.weight;
     }
     for (const Measured& level : score.error_by_level)
-        levels.push_back({ number(level.value()), level.weight });
+        levels.push_back({ json_number(level.value()), level.weight });
     json["weights"] = weights;
     json["error_by_level"] = levels;
     json["chromaticity"] = chromaticity_json(score.chromaticity);
@@ -45,7 +40,7 @@ Json method_json(const MethodScore& score)
 
 Json interval_json(const Interval& interval)
 {
-    return Json::array({ number(interval.mean), number(interval.low), number(interval.high) });
+    return Json::array({ json_number(interval.mean), json_number(interval.low), json_number(interval.high) });
 }
 
 Json intervals_json(const std::map<std::string, Interval>& values)
@@ -82,6 +77,11 @@ std::string dump(const Json& json, int indent)
 }
 
 } // namespace
+
+Json json_number(double value)
+{
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
 
 Json to_json(const ImageScore& image)
 {

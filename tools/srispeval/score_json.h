@@ -12,6 +12,9 @@
 
 namespace srisp::tool {
 
+/// JSON has no NaN and no infinity: null.
+nlohmann::ordered_json json_number(double value);
+
 /// What such a file says of its format.
 constexpr char kScoresFormat[] = "srisp-scores-1";
 

@@ -9,6 +9,7 @@
 
 #include "base/shown_text.h"
 #include "metric_table.h"
+#include "score_words.h"
 
 namespace srisp::tool {
 
@@ -39,25 +40,14 @@ std::string with_interval(const Interval& value, int digits, const char* sign = 
     return result;
 }
 
-bool is_within_noise(const Interval& difference)
-{
-    return std::isfinite(difference.low) && difference.low <= 0 && difference.high >= 0;
-}
-
-/// Of a plural.
-const char* ending(int count)
-{
-    return count == 1 ? "" : "s";
-}
-
 std::string group_title(const Evaluation& evaluation, const GroupSummary& group)
 {
     const bool photos = !evaluation.has_truth;
     std::string title = photos ? "photos with references" : "rendering " + shown_text(group.rendering);
     if (!group.camera.empty())
         title += ", " + shown_text(group.camera);
-    return title + text(": %d image%s of %d file%s, %d camera%s\n", group.images, ending(group.images), group.files,
-                        ending(group.files), group.cameras, ending(group.cameras));
+    return title + ": " + counted(group.images, "image") + " of " + counted(group.files, "file") + ", " +
+           counted(group.cameras, "camera") + "\n";
 }
 
 std::string group_table(const Evaluation& evaluation, const GroupSummary& group)
@@ -72,12 +62,7 @@ std::string group_table(const Evaluation& evaluation, const GroupSummary& group)
             if (value == method.values.end())
                 continue;
             const bool first = &method == &group.methods.front();
-            std::string title = metric.title;
-            if (*metric.unit)
-                title += std::string(", ") + metric.unit;
-            // ° and Δ are two bytes wide in UTF-8.
-            const auto extra = std::count_if(title.begin(), title.end(), [](char c) { return (c & 0xc0) == 0x80; });
-            result += text("  %-*s  %-*s  %-28s", int(20 + extra), title.c_str(), int(widest), method.method.c_str(),
+            result += text("  %s  %-*s  %-28s", padded_title(metric).c_str(), int(widest), method.method.c_str(),
                            with_interval(value->second, metric.digits).c_str());
             const auto over = method.over_baseline.find(metric.key);
             if (!first && over != method.over_baseline.end())

@@ -16,6 +16,12 @@ struct Measured {
     double sum = 0, weight = 0;
 
     double value() const { return sum / weight; } ///< NaN where there is none
+    Measured& operator+=(const Measured& other)
+    {
+        sum += other.sum;
+        weight += other.weight;
+        return *this;
+    }
 };
 
 /// Which end of a measure is good.
@@ -43,6 +49,13 @@ struct MethodScore {
     std::array<Measured, kLevels> error_by_level{}; ///< result − truth of single values, by the truth's level
     std::optional<Chromaticity> chromaticity;
     std::string parameters; ///< JSON text of the choice (to_json of Parameters, or what a baseline used); may be empty
+
+    /// What was measured; weight 0 where that has no meaning for it.
+    Measured value(const std::string& key) const
+    {
+        const auto found = values.find(key);
+        return found == values.end() ? Measured{} : found->second;
+    }
 };
 
 /// One test image: a photo, the reference it was unprocessed with, and what each method made of it.
@@ -63,6 +76,12 @@ struct ImageScore {
 struct Interval {
     double mean = 0, low = 0, high = 0; ///< NaN where there is nothing
 };
+
+/// Whether a difference with this interval may be none at all.
+inline bool is_within_noise(const Interval& difference)
+{
+    return difference.low <= 0 && difference.high >= 0;
+}
 
 /// What one method reached over a group of images.
 struct MethodSummary {

@@ -56,19 +56,14 @@ private:
             const auto score = image->methods.find(method);
             if (score == image->methods.end())
                 continue;
-            const Measured measured = value(score->second);
-            files[m_files.at(image->image)].sum += measured.sum;
-            files[m_files.at(image->image)].weight += measured.weight;
+            files[m_files.at(image->image)] += value(score->second);
         }
         return files;
     }
 
     PerFile of_metric(const std::string& method, const std::string& key) const
     {
-        return per_file(method, [&](const MethodScore& score) {
-            const auto value = score.values.find(key);
-            return value == score.values.end() ? Measured{} : value->second;
-        });
+        return per_file(method, [&](const MethodScore& score) { return score.value(key); });
     }
 
     static bool is_empty(const PerFile& files)
@@ -101,26 +96,26 @@ private:
         result.brightness_spread = spread(method);
         if (result.values.count(key::kErrorInDeviations))
             for (const double z : kCoverage)
-                result.coverage.push_back(pooled(per_file(method,
-                                                          [&](const MethodScore& score) {
-                                                              const auto error =
-                                                                  score.values.find(key::kErrorInDeviations);
-                                                              if (error == score.values.end())
-                                                                  return Measured{};
-                                                              return Measured{ error->second.sum <= z ? 1.0 : 0.0, 1 };
-                                                          }),
-                                                 FileCounts(m_files.size(), 1)));
+                result.coverage.push_back(share_within(method, z));
         return result;
+    }
+
+    /// Of the errors of brightness, those of at most z of the deviations told.
+    double share_within(const std::string& method, double z) const
+    {
+        const PerFile files = per_file(method, [&](const MethodScore& score) {
+            const Measured error = score.value(key::kErrorInDeviations);
+            return Measured{ error.weight > 0 && error.sum <= z ? 1.0 : 0.0, error.weight };
+        });
+        return pooled(files, FileCounts(m_files.size(), 1));
     }
 
     Interval spread(const std::string& method) const
     {
         const PerFile values = of_metric(method, key::kBrightness);
         const PerFile squares = per_file(method, [](const MethodScore& score) {
-            const auto error = score.values.find(key::kBrightness);
-            if (error == score.values.end())
-                return Measured{};
-            return Measured{ error->second.sum * error->second.sum, error->second.weight };
+            const Measured error = score.value(key::kBrightness);
+            return Measured{ error.sum * error.sum, error.weight };
         });
         return m_bootstrap.interval([&](const FileCounts& counts) {
             const double average = pooled(values, counts);

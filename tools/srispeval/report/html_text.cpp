@@ -96,19 +96,9 @@ std::string signed_range_text(const Interval& interval, int digits)
     return signed_number(interval.low, digits) + " to " + signed_number(interval.high, digits);
 }
 
-bool is_noise(const Interval& difference)
-{
-    return difference.low <= 0 && difference.high >= 0;
-}
-
 std::string title_with_unit(const Metric& metric)
 {
     return std::string(metric.title) + (*metric.unit ? " (" + std::string(metric.unit) + ")" : "");
-}
-
-std::string counted(int count, const std::string& noun)
-{
-    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 } // namespace srisp::tool

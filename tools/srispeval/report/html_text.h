@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "../metric_table.h"
+#include "../score_words.h"
 
 // Texts and numbers for HTML. Whatever comes from outside (names of files, cameras, converters; notes; parameters) goes
 // through html().
@@ -27,12 +28,8 @@ std::string coordinate(double value);
 std::string range_text(const Interval& interval, int digits);
 /// The same with signs.
 std::string signed_range_text(const Interval& interval, int digits);
-/// Whether there is an interval and 0 is within it.
-bool is_noise(const Interval& difference);
 
 /// "PSNR (dB)".
 std::string title_with_unit(const Metric& metric);
-/// "1 image", "2 images".
-std::string counted(int count, const std::string& noun);
 
 } // namespace srisp::tool

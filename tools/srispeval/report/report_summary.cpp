@@ -72,7 +72,7 @@ std::string value_cell(const MethodSummary& method, const Column& column)
 /// What a difference means, in a word; nothing where neither sign is the good one.
 std::string verdict(const Interval& difference, Better better)
 {
-    if (is_noise(difference))
+    if (is_within_noise(difference))
         return "<small class=\"noise\">within the noise</small>";
     if (better == Better::near_zero)
         return "";

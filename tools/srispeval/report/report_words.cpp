@@ -39,7 +39,7 @@ std::string comparison(const MethodSummary& method, const MethodSummary& baselin
                              (range.empty() ? "" : " (95 % interval " + range + ")"),
                       name = "<strong>" + html(method.method) + "</strong>", other = html(baseline.method);
     std::string text;
-    if (is_noise(difference))
+    if (is_within_noise(difference))
         text = name + " and " + other + " cannot be told apart by " + leading->title + ": " + what;
     else
         text = name + " is " + what + (difference.mean < 0 ? " against " : " over ") + other + " in " + leading->title;

@@ -42,10 +42,10 @@ TEST_CASE("numbers have a real minus sign, and none where they are 0")
 TEST_CASE("an interval around 0 is noise, one without ends is nothing")
 {
     const double none = std::numeric_limits<double>::quiet_NaN();
-    CHECK(is_noise({ 0.1, -0.1, 0.3 }));
-    CHECK(is_noise({ 0.1, 0, 0.3 }));
-    CHECK_FALSE(is_noise({ 0.2, 0.1, 0.3 }));
-    CHECK_FALSE(is_noise({ none, none, none }));
+    CHECK(is_within_noise({ 0.1, -0.1, 0.3 }));
+    CHECK(is_within_noise({ 0.1, 0, 0.3 }));
+    CHECK_FALSE(is_within_noise({ 0.2, 0.1, 0.3 }));
+    CHECK_FALSE(is_within_noise({ none, none, none }));
     CHECK(signed_range_text({ 0.1, -0.1, 0.3 }, 1) == "−0.1 to +0.3");
     CHECK(range_text({ 1, none, none }, 1) == "");
 }
