@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/hashes.h"
+#include "base/printed.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -14,10 +15,8 @@ namespace srisp {
 
 static std::string as_text(XXH128_hash_t hash)
 {
-    char text[48];
-    std::snprintf(text, sizeof text, "xxh128:%016llx%016llx", static_cast<unsigned long long>(hash.high64),
-                  static_cast<unsigned long long>(hash.low64));
-    return text;
+    return printed("xxh128:%016llx%016llx", static_cast<unsigned long long>(hash.high64),
+                   static_cast<unsigned long long>(hash.low64));
 }
 
 std::string hash_of_bytes(const void* data, std::size_t size)

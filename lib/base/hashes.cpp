@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <vector>
 
 #include "base/file_part.h"
+#include "base/printed.h"
 
 namespace srisp {
 
@@ -60,9 +60,7 @@ public:
             hash = rotated(hash ^ *p * kPrime5, 11) * kPrime1;
         hash = (hash ^ (hash >> 33)) * kPrime2;
         hash = (hash ^ (hash >> 29)) * kPrime3;
-        char text[32];
-        std::snprintf(text, sizeof text, "xxh64:%016llx", static_cast<unsigned long long>(hash ^ (hash >> 32)));
-        return text;
+        return printed("xxh64:%016llx", static_cast<unsigned long long>(hash ^ (hash >> 32)));
     }
 
 private:

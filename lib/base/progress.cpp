@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/progress.h"
+#include "base/printed.h"
 
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 
 namespace srisp {
@@ -70,10 +70,8 @@ void ProgressLine::wipe()
 std::string WorkCount::text(std::int64_t done, double seconds) const
 {
     const double rate = double(done - before) / seconds;
-    char numbers[32];
-    std::snprintf(numbers, sizeof numbers, "%.*f/s", rate < 10 ? 1 : 0, rate);
-    return title + ": " + std::to_string(done) + " of " + std::to_string(total) + " " + unit + ", " + numbers + ", " +
-           duration_text(double(total - done) / rate) + " left";
+    return title + ": " + std::to_string(done) + " of " + std::to_string(total) + " " + unit + ", " +
+           printed("%.*f/s", rate < 10 ? 1 : 0, rate) + ", " + duration_text(double(total - done) / rate) + " left";
 }
 
 void ProgressMeter::show(std::int64_t done)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/shown_text.h"
-
-#include <cstdio>
+#include "base/printed.h"
 
 namespace srisp {
 
@@ -62,9 +61,7 @@ std::string shown_text(std::string_view text, std::size_t most)
 
 std::string shown_number(double value)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
+    return printed("%.6g", value);
 }
 
 std::string valid_utf8(std::string_view text)

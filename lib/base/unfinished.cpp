@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include "base/hashes.h"
+#include "base/printed.h"
 
 namespace srisp {
 
@@ -31,9 +32,7 @@ constexpr int kMostTries = 1000;
 
 std::string digits(std::uint64_t value)
 {
-    char text[kHalf + 1];
-    std::snprintf(text, sizeof text, "%08x", static_cast<unsigned>(value & 0xffffffffu));
-    return text;
+    return printed("%08x", static_cast<unsigned>(value & 0xffffffffu));
 }
 
 std::string name_of(const fs::path& target, std::uint32_t random)

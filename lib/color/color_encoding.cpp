@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include <OpenImageIO/strutil.h>
 
+#include "base/parsed_number.h"
 #include "base/scene_linear_space.h"
 
 namespace srisp {
@@ -49,10 +49,8 @@ std::optional<float> gamma_in_name(const std::string& name)
     for (const char* prefix : { "GammaCorrected", "Gamma" }) {
         if (!Strutil::istarts_with(name, prefix))
             continue;
-        const std::string number = name.substr(std::string(prefix).size());
-        char* end = nullptr;
-        const float gamma = std::strtof(number.c_str(), &end);
-        if (!number.empty() && *end == '\0' && gamma > 0.01f && gamma < 100)
+        const auto gamma = parsed_number<float>(name.substr(std::string_view(prefix).size()));
+        if (gamma && *gamma > 0.01f && *gamma < 100)
             return gamma;
     }
     return {};

@@ -2,12 +2,12 @@
 #include "gain_map/find_gain_map.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "base/file_bytes.h"
+#include "base/parsed_number.h"
 #include "gain_map/xmp_packet.h"
 #include "jpeg/jpeg_segments.h"
 
@@ -40,9 +40,7 @@ struct ContainerItem {
 
 std::uint64_t parsed_length(const std::string& text)
 {
-    std::uint64_t length = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), length);
-    return error == std::errc() && end == text.data() + text.size() ? length : 0;
+    return parsed_number<std::uint64_t>(text).value_or(0);
 }
 
 std::vector<ContainerItem> container_items(const XmpPacket& xmp)

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gain_map/gain_map_metadata.h"
 
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
 
+#include "base/parsed_number.h"
 #include "base/shown_text.h"
 
 namespace srisp {
@@ -46,22 +46,6 @@ Status check(const GainMapMetadata& metadata)
     return {};
 }
 
-std::optional<double> parsed_number(std::string_view text)
-{
-    const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
-    while (!text.empty() && is_space(text.front()))
-        text.remove_prefix(1);
-    while (!text.empty() && is_space(text.back()))
-        text.remove_suffix(1);
-    if (text.size() > 1 && text[0] == '+' && text[1] != '-')
-        text.remove_prefix(1);
-    double value;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-        return {};
-    return value;
-}
-
 /// One number for all channels, or three; absent: those that are there already, if `may_lack`.
 Status read_numbers(const XmpPacket& xmp, const char* name, bool may_lack, std::array<double, 3>& numbers)
 {
@@ -72,7 +56,7 @@ Status read_numbers(const XmpPacket& xmp, const char* name, bool may_lack, std::
         return damaged("has " + std::to_string(texts.size()) + " values of " + name + "; 1 or 3 are possible");
     for (std::size_t c = 0; c < 3; ++c) {
         const std::string& text = texts[texts.size() == 1 ? 0 : c];
-        const auto number = parsed_number(text);
+        const auto number = lenient_number<double>(text);
         if (!number)
             return damaged(std::string("has ") + name + " = '" + shown_text(text) + "', which is no number");
         numbers[c] = *number;

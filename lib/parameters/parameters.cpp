@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <srisp/model.h>
 
 #include "base/guarded.h"
 #include "base/json_object.h"
 #include "base/matrix3.h"
+#include "base/printed.h"
 #include "base/shown_text.h"
 
 namespace srisp {
@@ -23,9 +23,7 @@ const char kFormat[] = "srisp-parameters-1";
 /// 9 significant digits bring a float back to the bit.
 std::string number(double value)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.9g", value);
-    return text;
+    return printed("%.9g", value);
 }
 
 template<class Values> std::string list(const Values& values)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recipe/noise_source.h"
 
-#include <charconv>
 #include <optional>
 #include <string_view>
 #include <vector>
 
+#include "base/parsed_number.h"
 #include "base/shown_text.h"
 
 namespace srisp {
@@ -17,15 +17,6 @@ const char kKnown[] = "noise comes from reference, iso=N, shot=S,read=R or upi";
 Error wrong(const std::string& text, const std::string& why)
 {
     return { "noise '" + shown_text(text) + "': " + why };
-}
-
-std::optional<double> number(std::string_view text)
-{
-    double value = 0;
-    const auto [stop, failed] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (text.empty() || failed != std::errc() || stop != text.data() + text.size())
-        return {};
-    return value;
 }
 
 std::vector<std::string_view> parts(std::string_view text)
@@ -62,7 +53,7 @@ Status parse_figures(const std::string& text, NoiseSource& source)
                 target = figures;
                 part.remove_prefix(name.size());
             }
-        const auto figure = number(part);
+        const auto figure = parsed_number<double>(part);
         if (!target || !figure)
             return wrong(text, "'" + shown_text(std::string(part)) + "' is not a number; " + kKnown);
         if (!(*figure >= 0 && *figure <= 1))
@@ -85,7 +76,7 @@ Expected<NoiseSource> parse_noise_source(const std::string& text)
     if (text == "upi") {
         source.kind = NoiseSource::Kind::upi;
     } else if (text.compare(0, iso.size(), iso) == 0) {
-        const auto value = number(std::string_view(text).substr(iso.size()));
+        const auto value = parsed_number<double>(std::string_view(text).substr(iso.size()));
         if (!value || !(*value > 0 && *value < 1e9))
             return wrong(text, "the ISO is a number above 0");
         source.kind = NoiseSource::Kind::iso;

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 
 #include "base/near_names.h"
+#include "base/parsed_number.h"
 #include "base/scene_linear_space.h"
 #include "base/shown_text.h"
 #include "recipe/brightness.h"
@@ -119,12 +119,10 @@ Expected<nlohmann::json> option_value(const Option& option, const std::string& t
         return nlohmann::json(text == "1");
     }
     if (option.type == OptionType::number) {
-        std::uint64_t number = 0;
-        const char* const end = text.data() + text.size();
-        const auto [stop, failed] = std::from_chars(text.data(), end, number);
-        if (text.empty() || stop != end || failed != std::errc())
+        const auto number = parsed_number<std::uint64_t>(text);
+        if (!number)
             return Error{ what + " is not a whole number from 0 to " + std::to_string(UINT64_MAX) };
-        return nlohmann::json(number);
+        return nlohmann::json(*number);
     }
     if (option.type == OptionType::brightness)
         if (const auto brightness = parse_brightness(text); !brightness)

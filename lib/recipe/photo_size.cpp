@@ -2,11 +2,11 @@
 #include "recipe/photo_size.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
 #include "base/hashes.h"
+#include "base/parsed_number.h"
 #include "base/shown_text.h"
 
 namespace srisp {
@@ -18,12 +18,8 @@ const std::string kRandom = "random:";
 
 std::optional<int> whole_number(const std::string& text)
 {
-    int number = 0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, failed] = std::from_chars(text.data(), end, number);
-    return text.empty() || failed != std::errc() || stop != end || number < 0 || number > kLargestSide
-               ? std::nullopt
-               : std::optional(number);
+    const auto number = parsed_number<int>(text);
+    return number && *number >= 0 && *number <= kLargestSide ? number : std::nullopt;
 }
 
 /// From "640x480".
@@ -38,13 +34,10 @@ std::optional<PhotoSize> pair_of_sides(const std::string& text)
 
 std::optional<double> percent(const std::string& text)
 {
-    double number = 0;
-    if (text.size() < 2 || text.back() != '%')
+    if (text.empty() || text.back() != '%')
         return {};
-    const char* const end = text.data() + text.size() - 1;
-    const auto [stop, failed] = std::from_chars(text.data(), end, number);
-    const bool good = failed == std::errc() && stop == end && number > 0 && number <= 1000;
-    return good ? std::optional(number) : std::nullopt;
+    const auto number = parsed_number<double>(std::string_view(text).substr(0, text.size() - 1));
+    return number && *number > 0 && *number <= 1000 ? number : std::nullopt;
 }
 
 bool is_random(const std::string& crop)

@@ -2,12 +2,12 @@
 #include "recipe/white_balance.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string_view>
 #include <vector>
 
+#include "base/parsed_number.h"
 #include "base/shown_text.h"
 
 namespace srisp {
@@ -17,24 +17,12 @@ namespace {
 constexpr double kLowestKelvin = 1000, kHighestKelvin = 25000, kMostTint = 200, kLeastMultiplier = 1e-5,
                  kMostMultiplier = 1e5, kMostExposure = 20;
 
-std::optional<double> parse_number(std::string_view text)
-{
-    if (text.size() > 1 && text[0] == '+' && text[1] != '-')
-        text.remove_prefix(1);
-    double number = 0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, failed] = std::from_chars(text.data(), end, number);
-    if (text.empty() || failed != std::errc() || stop != end || !std::isfinite(number))
-        return {};
-    return number;
-}
-
 std::vector<double> parse_numbers(std::string_view text)
 {
     std::vector<double> numbers;
     for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t end = std::min(text.find(',', begin), text.size());
-        const auto number = parse_number(text.substr(begin, end - begin));
+        const auto number = parsed_signed_number<double>(text.substr(begin, end - begin));
         if (!number)
             return {};
         numbers.push_back(*number);
@@ -81,7 +69,7 @@ Expected<WhiteBalance> parse_white_balance(const std::string& text)
 
 Expected<double> parse_exposure(const std::string& text)
 {
-    const auto number = parse_number(text);
+    const auto number = parsed_signed_number<double>(text);
     if (number && std::fabs(*number) <= kMostExposure)
         return *number;
     return Error{ "exposure '" + shown_text(text) + "' is no number of EV from -20 to 20" };

@@ -2,9 +2,9 @@
 #include "result/band_reader.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "base/parallel.h"
+#include "base/printed.h"
 #include "container/image_limits.h"
 #include "photo/headroom.h"
 
@@ -130,11 +130,7 @@ Status BandReader::apply(const PhotoRows& rows, Roi roi, Target rgb)
     ApplyOptions options;
     options.threads = m_settings.threads;
     options.progress = [&](float part) {
-        m_progress.show([&] {
-            char text[32];
-            std::snprintf(text, sizeof text, "srisp: %3.0f %%", (m_bands_done + part) / m_done.size() * 100.0);
-            return std::string(text);
-        });
+        m_progress.show([&] { return printed("srisp: %3.0f %%", (m_bands_done + part) / m_done.size() * 100.0); });
         return !m_settings.cancelled || !m_settings.cancelled();
     };
     const int height = roi.y1 - roi.y0;

@@ -1,25 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <srisp/select.h>
 
 #include "base/guarded.h"
 #include "base/hashes.h"
+#include "base/printed.h"
 #include "base/shown_text.h"
 #include "noise/philox.h"
 
 namespace srisp {
 
 namespace {
-
-std::string ev_text(const char* format, double ev)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, format, ev);
-    return std::string(text) + " EV";
-}
 
 /// Of a normal distribution with mean 0 and deviation 1.
 double draw(std::uint64_t seed, const std::string& photo_name)
@@ -37,7 +30,7 @@ std::string brightness_note(const Parameters& parameters)
     constexpr float kUnsure = 0.7f;
     if (!(parameters.brightness_sd_ev.value_or(0.0f) > kUnsure))
         return {};
-    return "the brightness is unsure, its standard deviation is " + ev_text("%.2f", *parameters.brightness_sd_ev) +
+    return "the brightness is unsure, its standard deviation is " + printed("%.2f EV", *parameters.brightness_sd_ev) +
            "; brightness=EV makes the result that much brighter, or darker below 0";
 }
 
@@ -54,14 +47,14 @@ Status choose_brightness(Parameters& parameters, const Brightness& brightness, s
             const double most = kLargestBrightnessEv;
             ev = std::clamp(draw(seed, photo_name) * *parameters.brightness_sd_ev, -most, most);
             if (notes)
-                notes->push_back("a brightness of " + ev_text("%+.4f", ev) + " was drawn (standard deviation " +
-                                 ev_text("%.2f", *parameters.brightness_sd_ev) + ", seed " + std::to_string(seed) +
+                notes->push_back("a brightness of " + printed("%+.4f EV", ev) + " was drawn (standard deviation " +
+                                 printed("%.2f EV", *parameters.brightness_sd_ev) + ", seed " + std::to_string(seed) +
                                  ")");
         }
         parameters.gain = static_cast<float>(parameters.gain / std::exp2(ev));
         parameters.brightness_ev = static_cast<float>(parameters.brightness_ev + ev);
         if (!(std::isnormal(parameters.gain)))
-            return Error{ "brightness of " + ev_text("%+g", ev) + ": the gain becomes " +
+            return Error{ "brightness of " + printed("%+g EV", ev) + ": the gain becomes " +
                           shown_number(parameters.gain) };
         return {};
     });

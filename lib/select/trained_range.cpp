@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "select/trained_range.h"
 
+#include "base/printed.h"
+
 #include <algorithm>
-#include <cstdio>
 
 namespace srisp {
 
@@ -10,9 +11,7 @@ namespace {
 
 std::string text_of(float value)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", double(value));
-    return text;
+    return printed("%.3g", double(value));
 }
 
 std::string text_of(const std::array<float, 3>& values)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <future>
 #include <memory>
@@ -12,6 +11,7 @@
 #include "bake_options.h"
 #include "base/input_files.h"
 #include "base/output_file.h"
+#include "base/printed.h"
 #include "base/shown_text.h"
 #include "ocio/src/operators.h"
 
@@ -75,12 +75,8 @@ std::string CubeTable::text(const std::string& title, const std::vector<std::str
     for (const std::string& comment : comments)
         text += "# " + one_line(comment) + "\n";
     text += "TITLE \"" + one_line(title) + "\"\nLUT_3D_SIZE " + std::to_string(m_size) + "\n";
-    char line[64];
-    for (std::size_t i = 0; i < m_rgb.size(); i += 3) {
-        std::snprintf(line, sizeof line, "%.7g %.7g %.7g\n", double(m_rgb[i]), double(m_rgb[i + 1]),
-                      double(m_rgb[i + 2]));
-        text += line;
-    }
+    for (std::size_t i = 0; i < m_rgb.size(); i += 3)
+        text += printed("%.7g %.7g %.7g\n", double(m_rgb[i]), double(m_rgb[i + 1]), double(m_rgb[i + 2]));
     return text;
 }
 

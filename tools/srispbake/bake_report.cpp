@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake_report.h"
 
-#include <cstdio>
 #include <filesystem>
 
 #include <nlohmann/json.hpp>
 
 #include "../common/shell_quote.h"
+#include "base/printed.h"
 
 namespace srisp::tool {
 
@@ -16,9 +16,7 @@ using nlohmann::ordered_json;
 
 std::string size_text(const ErrorSize& error)
 {
-    char text[80];
-    std::snprintf(text, sizeof text, "largest %.2g, mean %.2g", error.largest, error.mean());
-    return text;
+    return printed("largest %.2g, mean %.2g", error.largest, error.mean());
 }
 
 /// What SRISP_REFERENCE must be for a file to be found: its path without ".unprocess.clf". "" for other names.
@@ -57,11 +55,10 @@ std::string summary_text(const BakeSummary& summary)
 {
     std::string text;
     for (const BakeReport& file : summary.files) {
-        char size[32];
         const bool small = file.bytes < 100'000;
-        std::snprintf(size, sizeof size, " (%.1f %s)\n", static_cast<double>(file.bytes) / (small ? 1e3 : 1e6),
-                      small ? "kB" : "MB");
-        text += file.name.path + size + "  " + file.sentence + "\n";
+        const std::string size =
+            printed("%.1f %s", static_cast<double>(file.bytes) / (small ? 1e3 : 1e6), small ? "kB" : "MB");
+        text += file.name.path + " (" + size + ")\n  " + file.sentence + "\n";
     }
     const std::string value = value_of_variable(summary);
     return value.empty() ? text : text + "In the host: " + shell_line({ "SRISP_REFERENCE=" + value }) + "\n";

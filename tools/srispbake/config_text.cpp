@@ -2,10 +2,10 @@
 #include "config_text.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <sstream>
 
 #include "../common/failure.h"
+#include "base/printed.h"
 
 namespace srisp::tool {
 
@@ -139,11 +139,8 @@ constexpr std::array<double, 9> kAcesToLinearSrgb = { 2.52168618674,   -1.134130
 std::string matrix_text(const std::array<double, 9>& m, const char* direction)
 {
     std::string text = "!<MatrixTransform> {matrix: [";
-    for (int row = 0; row < 3; ++row) {
-        char numbers[120];
-        std::snprintf(numbers, sizeof numbers, "%.10g, %.10g, %.10g, 0, ", m[row * 3], m[row * 3 + 1], m[row * 3 + 2]);
-        text += numbers;
-    }
+    for (int row = 0; row < 3; ++row)
+        text += printed("%.10g, %.10g, %.10g, 0, ", m[row * 3], m[row * 3 + 1], m[row * 3 + 2]);
     return text + "0, 0, 0, 1], direction: " + direction + "}";
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "batch_options.h"
 
-#include <charconv>
 #include <cstdlib>
 
 #include "../common/failure.h"
+#include "base/parsed_number.h"
 #include "base/shown_text.h"
 
 namespace srisp::tool {
@@ -16,21 +16,12 @@ constexpr const char* kImageOptions[] = { "model",        "params",   "input",  
                                           "brightness",   "levels",   "noise",      "profile", "develop",
                                           "whitebalance", "exposure", "highlights", "resize",  "crop" };
 
-std::optional<std::uint64_t> whole_number(const std::string& text)
-{
-    std::uint64_t number = 0;
-    const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (text.empty() || failed != std::errc() || end != text.data() + text.size())
-        return {};
-    return number;
-}
-
 /// From "3/8", counted from 0.
 Shard parse_shard(const std::string& text)
 {
     const std::size_t slash = std::min(text.find('/'), text.size());
-    const auto index = whole_number(text.substr(0, slash));
-    const auto count = whole_number(text.substr(std::min(slash + 1, text.size())));
+    const auto index = parsed_number<std::uint64_t>(text.substr(0, slash));
+    const auto count = parsed_number<std::uint64_t>(text.substr(std::min(slash + 1, text.size())));
     if (!index || !count || *index >= *count)
         fail_usage("--shard '" + shown_text(text) + "' is not I/N with I from 0 to N - 1");
     return { *index, *count };
@@ -41,7 +32,7 @@ std::optional<Shard> shard_of_slurm()
 {
     const auto number = [](const char* name) -> std::optional<std::uint64_t> {
         const char* const text = std::getenv(name);
-        return text ? whole_number(text) : std::nullopt;
+        return text ? parsed_number<std::uint64_t>(text) : std::nullopt;
     };
     const auto id = number("SLURM_ARRAY_TASK_ID"), count = number("SLURM_ARRAY_TASK_COUNT");
     if (!id || !count || *count < 2)

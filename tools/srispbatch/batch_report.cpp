@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "batch_report.h"
 
+#include "base/printed.h"
+
 #include <algorithm>
 #include <cstdio>
 
@@ -18,17 +20,12 @@ std::string size_text(double bytes)
     bytes /= 1e3;
     for (; bytes >= 1000 && unit + 1 < std::size(kUnits); ++unit)
         bytes /= 1e3;
-    char text[32];
-    std::snprintf(text, sizeof text, "%.*f %s", bytes < 10 ? 1 : 0, bytes, kUnits[unit]);
-    return text;
+    return printed("%.*f %s", bytes < 10 ? 1 : 0, bytes, kUnits[unit]);
 }
 
 std::string rate_text(const BatchSummary& summary, double seconds)
 {
-    char text[80];
-    std::snprintf(text, sizeof text, "%.1f a second, %.1f Mpx/s", double(summary.made) / seconds,
-                  summary.megapixels / seconds);
-    return text;
+    return printed("%.1f a second, %.1f Mpx/s", double(summary.made) / seconds, summary.megapixels / seconds);
 }
 
 std::string summary_text(const BatchSummary& summary)
@@ -104,9 +101,7 @@ void BatchReport::show(const BatchSummary& summary)
     }
     m_line.show([&] {
         const WorkCount count{ "srispbatch", "images", summary.planned, summary.done_before };
-        char more[64];
-        std::snprintf(more, sizeof more, ", %.1f Mpx/s", summary.megapixels / seconds);
-        return count.text(now, seconds) + more +
+        return count.text(now, seconds) + printed(", %.1f Mpx/s", summary.megapixels / seconds) +
                (summary.failed ? ", " + std::to_string(summary.failed) + " failed" : "");
     });
 }

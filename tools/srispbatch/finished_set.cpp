@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "finished_set.h"
 
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <mutex>
@@ -16,6 +15,7 @@
 #include "base/hashes.h"
 #include "base/input_files.h"
 #include "base/json_text.h"
+#include "base/parsed_number.h"
 #include "base/progress.h"
 #include "image_task.h"
 #include "manifest.h"
@@ -53,12 +53,10 @@ std::optional<std::pair<std::string, std::size_t>> line_place(const std::string&
     if (colon == std::string::npos)
         return {};
     const std::size_t digits = colon + 7;
-    std::size_t number = 0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, failed] = std::from_chars(text.data() + digits, end, number);
-    if (failed != std::errc() || stop != end || number == 0)
+    const auto number = parsed_number<std::size_t>(std::string_view(text).substr(digits));
+    if (!number || *number == 0)
         return {};
-    return std::make_pair(text.substr(0, digits - 1), number);
+    return std::make_pair(text.substr(0, digits - 1), *number);
 }
 
 Record find_record(const std::string& text)

@@ -2,8 +2,6 @@
 #include "reference_set.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <sstream>
@@ -13,6 +11,7 @@
 #include "../common/failure.h"
 #include "base/hashes.h"
 #include "base/input_file.h"
+#include "base/parsed_number.h"
 #include "base/shown_text.h"
 #include "recipe/reference_pattern.h"
 
@@ -102,13 +101,11 @@ void ReferenceSet::read_csv(const std::string& path)
             m_of_photo[fs::path((*fields)[0]).lexically_normal().string()].push_back((folder / (*fields)[1]).string());
             continue;
         }
-        double weight = 0;
-        const std::string& digits = (*fields)[1];
-        const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), weight);
-        if (failed != std::errc() || end != digits.data() + digits.size() || !(weight > 0) || !std::isfinite(weight))
-            fail(where + "weight '" + shown_text(digits) + "' is no number above 0");
+        const auto weight = parsed_number<double>((*fields)[1]);
+        if (!weight || *weight <= 0)
+            fail(where + "weight '" + shown_text((*fields)[1]) + "' is no number above 0");
         m_references.push_back((folder / (*fields)[0]).string());
-        m_up_to.push_back((m_up_to.empty() ? 0 : m_up_to.back()) + weight);
+        m_up_to.push_back((m_up_to.empty() ? 0 : m_up_to.back()) + *weight);
     }
     if (m_references.empty() && m_of_photo.empty())
         fail("references '" + path + "' names none");

@@ -2,8 +2,8 @@
 #include "score_csv.h"
 
 #include <cmath>
-#include <cstdio>
 
+#include "base/printed.h"
 #include "metric_table.h"
 
 namespace srisp::tool {
@@ -22,10 +22,7 @@ std::string csv_text(const std::string& text)
 
 std::string csv_number(double value)
 {
-    char text[32] = "";
-    if (std::isfinite(value))
-        std::snprintf(text, sizeof text, "%.7g", value);
-    return text;
+    return std::isfinite(value) ? printed("%.7g", value) : "";
 }
 
 } // namespace

@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <sstream>
 
+#include "base/printed.h"
 #include "base/shown_text.h"
 #include "metric_table.h"
 #include "score_words.h"
@@ -15,26 +14,16 @@ namespace srisp::tool {
 
 namespace {
 
-__attribute__((format(printf, 1, 2))) std::string text(const char* format, ...)
-{
-    char buffer[512];
-    va_list arguments;
-    va_start(arguments, format);
-    std::vsnprintf(buffer, sizeof buffer, format, arguments);
-    va_end(arguments);
-    return buffer;
-}
-
 std::string number(double value, int digits)
 {
-    return std::isfinite(value) ? text("%.*f", digits, value) : "-";
+    return std::isfinite(value) ? printed("%.*f", digits, value) : "-";
 }
 
 /// "35.20 (34.1 to 36.3)"
 std::string with_interval(const Interval& value, int digits, const char* sign = "")
 {
     std::string result =
-        std::isfinite(value.mean) ? text("%s%.*f", value.mean >= 0 ? sign : "", digits, value.mean) : "-";
+        std::isfinite(value.mean) ? printed("%s%.*f", value.mean >= 0 ? sign : "", digits, value.mean) : "-";
     if (std::isfinite(value.low))
         result += " (" + number(value.low, digits) + " to " + number(value.high, digits) + ")";
     return result;
@@ -62,8 +51,8 @@ std::string group_table(const Evaluation& evaluation, const GroupSummary& group)
             if (value == method.values.end())
                 continue;
             const bool first = &method == &group.methods.front();
-            result += text("  %s  %-*s  %-28s", padded_title(metric).c_str(), int(widest), method.method.c_str(),
-                           with_interval(value->second, metric.digits).c_str());
+            result += printed("  %s  %-*s  %-28s", padded_title(metric).c_str(), int(widest), method.method.c_str(),
+                              with_interval(value->second, metric.digits).c_str());
             const auto over = method.over_baseline.find(metric.key);
             if (!first && over != method.over_baseline.end())
                 result += "  " + with_interval(over->second, metric.digits, "+") +

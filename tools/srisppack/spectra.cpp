@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 
 #include "../common/csv_table.h"
@@ -11,6 +10,7 @@
 #include "base/input_file.h"
 #include "base/json_object.h"
 #include "base/matrix3.h"
+#include "base/parsed_number.h"
 #include "base/shown_text.h"
 
 namespace srisp::tool {
@@ -24,11 +24,10 @@ constexpr std::size_t kMaxColumns = 10000;
 
 double as_number(const std::string& text, const std::string& where)
 {
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0' || !std::isfinite(value))
+    const auto value = lenient_number<double>(text);
+    if (!value)
         fail(where + ": '" + shown_text(text) + "' is not a finite number");
-    return value;
+    return *value;
 }
 
 /// Puts the rows in order and checks what both formats must keep.

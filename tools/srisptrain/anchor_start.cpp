@@ -2,10 +2,10 @@
 #include "anchor_start.h"
 
 #include <chrono>
-#include <cstdio>
 
 #include "../common/failure.h"
 #include "../common/interrupt.h"
+#include "base/printed.h"
 #include "model/model_files.h"
 #include "output_folder.h"
 #include "train/run/model_file.h"
@@ -126,11 +126,9 @@ AnchorFit fit(Session& session, Host& host, AnchorPairs& pairs, const AnchorFitS
 
 void say(Host& host, const AnchorFit& fit)
 {
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "anchor fitted: error of the log mean %.3f (a line alone %.3f, gain match %.3f), on pairs held out",
-                  fit.deviation, fit.line_deviation, fit.gain_match_deviation);
-    host.note(text);
+    host.note(
+        printed("anchor fitted: error of the log mean %.3f (a line alone %.3f, gain match %.3f), on pairs held out",
+                fit.deviation, fit.line_deviation, fit.gain_match_deviation));
 }
 
 /// Of the anchors between the old one and the one that was carried on from it, the best in validation.
@@ -141,10 +139,8 @@ void take_best_mix(Session& session, Host& host, Unprocessor& before, const Vali
     require(take_anchor(*after, *session.model));
     double best_share = 0, best_score = without.score;
     const auto say_one = [&host](double share, const Validation& validation) {
-        char text[160];
-        std::snprintf(text, sizeof text, "validation: %.2f dB and %.2f deg with %.0f %% of the new anchor",
-                      validation.psnr, validation.angle, 100 * share);
-        host.note(text);
+        host.note(printed("validation: %.2f dB and %.2f deg with %.0f %% of the new anchor", validation.psnr,
+                          validation.angle, 100 * share));
     };
     say_one(0, without);
     for (const double share : { 0.25, 0.5, 0.75, 1.0 }) {

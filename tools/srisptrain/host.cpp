@@ -7,6 +7,7 @@
 #include <set>
 
 #include "../common/failure.h"
+#include "base/printed.h"
 #include "srisp_commit.h"
 #include "train/run/model_file.h"
 
@@ -16,26 +17,19 @@ using namespace train;
 
 namespace {
 
-std::string number_text(const char* format, double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
-
 /// "120/2400, 1.9/s, loss 0.043 (reverse 0.031, forward 0.012), 33.2 dB, 6.1 deg, 20 min left"
 std::string progress_text(const RunProgress& progress)
 {
     std::string text = std::to_string(progress.step) + "/" + std::to_string(progress.steps) + ", " +
-                       number_text(progress.steps_per_second < 10 ? "%.2f/s" : "%.0f/s", progress.steps_per_second) +
-                       ", loss " + number_text("%.4f", progress.report.loss);
+                       printed("%.*f/s", progress.steps_per_second < 10 ? 2 : 0, progress.steps_per_second) +
+                       ", loss " + printed("%.4f", progress.report.loss);
     std::string terms;
     for (const auto& [name, value] : progress.report.terms)
-        terms += (terms.empty() ? " (" : ", ") + name + " " + number_text("%.4f", value);
+        terms += (terms.empty() ? " (" : ", ") + name + " " + printed("%.4f", value);
     text += terms.empty() ? "" : terms + ")";
     if (progress.last_validation)
-        text += ", " + number_text("%.2f dB, ", progress.last_validation->psnr) +
-                number_text("%.2f deg", progress.last_validation->angle);
+        text += ", " + printed("%.2f dB, ", progress.last_validation->psnr) +
+                printed("%.2f deg", progress.last_validation->angle);
     return text + ", " + duration_text(progress.seconds_left) + " left";
 }
 

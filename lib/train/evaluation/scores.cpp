@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/evaluation/scores.h"
 
+#include "base/printed.h"
+
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 
 #include <nlohmann/json.hpp>
 
@@ -11,31 +11,20 @@ namespace srisp::train {
 
 namespace {
 
-/// printf into a string.
-__attribute__((format(printf, 1, 2))) std::string text(const char* format, ...)
-{
-    char buffer[512];
-    va_list arguments;
-    va_start(arguments, format);
-    std::vsnprintf(buffer, sizeof buffer, format, arguments);
-    va_end(arguments);
-    return buffer;
-}
-
 /// The columns, in the widths of `line`.
 std::string header()
 {
-    return text("%-22s %6s  %9s  %8s  %6s  %5s  %16s  %10s  %8s  %7s\n", "", "dB", "over g.m.", "covered", "angle",
-                "ratio", "ln mean error", "highlights", "at gain", "skipped");
+    return printed("%-22s %6s  %9s  %8s  %6s  %5s  %16s  %10s  %8s  %7s\n", "", "dB", "over g.m.", "covered", "angle",
+                   "ratio", "ln mean error", "highlights", "at gain", "skipped");
 }
 
 /// A line of the table; `relation` stands in the columns "over g.m." and "covered", and `ratio` in its own.
 std::string line(const std::string& name, const Measure& m, const std::string& relation = "",
                  const std::string& ratio = "")
 {
-    return text("%-22.22s %6.2f  %19s  %6.2f  %5s  %+7.3f +- %.3f  %+10.3f  %+8.3f  %7lld\n", name.c_str(), m.psnr(),
-                relation.c_str(), m.angle.mean(), ratio.c_str(), m.log_error_mean(), m.log_error_deviation(),
-                m.highlights.mean(), m.highlights.mean_at_gain(), static_cast<long long>(m.angle.skipped));
+    return printed("%-22.22s %6.2f  %19s  %6.2f  %5s  %+7.3f +- %.3f  %+10.3f  %+8.3f  %7lld\n", name.c_str(), m.psnr(),
+                   relation.c_str(), m.angle.mean(), ratio.c_str(), m.log_error_mean(), m.log_error_deviation(),
+                   m.highlights.mean(), m.highlights.mean_at_gain(), static_cast<long long>(m.angle.skipped));
 }
 
 /// How sure the model is of the brightness, and whether rightly; empty where it does not tell.
@@ -43,25 +32,25 @@ std::string deviation_line(const Measure& m)
 {
     if (m.deviations.empty())
         return "";
-    return text("%-22.22s %.2f EV on average, %.0f %% of the errors within one, %.0f %% within two\n",
-                "  standard deviation", m.mean_deviation_ev(), 100 * m.share_within(1), 100 * m.share_within(2));
+    return printed("%-22.22s %.2f EV on average, %.0f %% of the errors within one, %.0f %% within two\n",
+                   "  standard deviation", m.mean_deviation_ev(), 100 * m.share_within(1), 100 * m.share_within(2));
 }
 
 std::string model_lines(const std::string& name, const ScoreGroup& group)
 {
-    return line(name, group.model, text("%+9.2f  %6.0f %%", group.psnr_gain(), 100 * group.covered()),
-                text("%.2f", group.angle_ratio())) +
+    return line(name, group.model, printed("%+9.2f  %6.0f %%", group.psnr_gain(), 100 * group.covered()),
+                printed("%.2f", group.angle_ratio())) +
            line("  + true means", group.model_oracle) + line("  + true gain", group.model_oracle_gain) +
            deviation_line(group.model);
 }
 
 std::string group_title(const ScoreGroup& group)
 {
-    const std::string where = group.camera.empty() ? text("%d cameras", group.cameras) : group.camera;
+    const std::string where = group.camera.empty() ? printed("%d cameras", group.cameras) : group.camera;
     const bool developed = group.set == "developed";
     const char* const set = developed ? "real RAW by " : group.set == "real" ? "real RAW, " : "simulated RAW, ";
-    return text("%s%s%s: %d crops of %s\n", set, group.rendering.c_str(), developed ? "" : " rendering",
-                group.model.crops, where.c_str());
+    return printed("%s%s%s: %d crops of %s\n", set, group.rendering.c_str(), developed ? "" : " rendering",
+                   group.model.crops, where.c_str());
 }
 
 std::string group_table(const NamedScores& scores, std::size_t index)
@@ -83,9 +72,10 @@ std::string camera_lines(const NamedScores& scores)
         for (const auto& [name, of_model] : scores) {
             const ScoreGroup& group = of_model.groups[i];
             if (!group.camera.empty())
-                result += text("%-28.28s %-7.7s %-14.14s %7.2f  %+8.2f  %5.0f %%  %5.2f  %5.2f\n", group.camera.c_str(),
-                               group.rendering.c_str(), name.c_str(), group.model.psnr(), group.psnr_gain(),
-                               100 * group.covered(), group.model.angle.mean(), group.angle_ratio());
+                result +=
+                    printed("%-28.28s %-7.7s %-14.14s %7.2f  %+8.2f  %5.0f %%  %5.2f  %5.2f\n", group.camera.c_str(),
+                            group.rendering.c_str(), name.c_str(), group.model.psnr(), group.psnr_gain(),
+                            100 * group.covered(), group.model.angle.mean(), group.angle_ratio());
         }
     return result + "\n";
 }
@@ -94,15 +84,15 @@ std::string unpaired_line(const std::string& name, const UnpairedScores::Method&
 {
     const auto& mean = method.rank_mean;
     const auto& lowest = method.rank_lowest;
-    return text("%-22.22s        %.3f       %5.2f %5.2f %5.2f        %5.2f %5.2f %5.2f\n", name.c_str(),
-                method.intersection, mean[0], mean[1], mean[2], lowest[0], lowest[1], lowest[2]);
+    return printed("%-22.22s        %.3f       %5.2f %5.2f %5.2f        %5.2f %5.2f %5.2f\n", name.c_str(),
+                   method.intersection, mean[0], mean[1], mean[2], lowest[0], lowest[1], lowest[2]);
 }
 
 std::string unpaired_table(const NamedScores& scores)
 {
     const UnpairedScores& first = *scores.front().second.unpaired;
     std::string result =
-        text("%d photos, each with the same %d references, unpaired\n", first.photos, first.references);
+        printed("%d photos, each with the same %d references, unpaired\n", first.photos, first.references);
     result += "                        histogram    rank correlation per channel, of a photo's brightness\n"
               "                     intersection    mean over photos         lowest\n";
     result += unpaired_line("gain match", first.gain_match);

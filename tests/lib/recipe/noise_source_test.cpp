@@ -39,7 +39,7 @@ TEST_CASE("other texts are refused, each with what is wrong")
     CHECK(error_of("shot=0.01") == "noise 'shot=0.01': shot= and read= need one figure each, or three for R, G, B");
     CHECK(error_of("shot=1,2,read=0").find("is not in [0,1]") != std::string::npos);
     CHECK(error_of("shot=0.1,0.2,read=0").find("need one figure each") != std::string::npos);
-    CHECK(error_of("shot=nan,read=0").find("nan is not in [0,1]") != std::string::npos);
+    CHECK(error_of("shot=nan,read=0").find("'nan' is not a number") != std::string::npos);
     CHECK(error_of("shot=0.01,read=0,shot=0.02").find("shot= is said twice") != std::string::npos);
     CHECK(error_of("shot=0.01,gain=2").find("'gain=2' is not a number") != std::string::npos);
     CHECK(error_of("shot=0.01,,read=0").find("'' is not a number") != std::string::npos);

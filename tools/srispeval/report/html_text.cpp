@@ -2,8 +2,8 @@
 #include "html_text.h"
 
 #include <cmath>
-#include <cstdio>
 
+#include "base/printed.h"
 #include "base/shown_text.h"
 
 namespace srisp::tool {
@@ -14,9 +14,7 @@ constexpr char kMinus[] = "−";
 
 std::string digits_of(double size, int digits)
 {
-    char text[64];
-    std::snprintf(text, sizeof text, std::abs(size) < 1e9 ? "%.*f" : "%.*g", digits, size);
-    return text;
+    return std::abs(size) < 1e9 ? printed("%.*f", digits, size) : printed("%.*g", digits, size);
 }
 
 bool is_zero(const std::string& text)
@@ -43,9 +41,7 @@ std::string escaped(char letter)
     const auto byte = static_cast<unsigned char>(letter);
     if ((byte >= 0x20 && byte != 0x7f) || letter == '\n' || letter == '\t')
         return { letter };
-    char text[8];
-    std::snprintf(text, sizeof text, "\\x%02x", unsigned(byte));
-    return text;
+    return printed("\\x%02x", unsigned(byte));
 }
 
 } // namespace
@@ -74,9 +70,7 @@ std::string signed_number(double value, int digits)
 
 std::string coordinate(double value)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f", std::isfinite(value) ? value : 0.0);
-    std::string shortened = text;
+    std::string shortened = printed("%.1f", std::isfinite(value) ? value : 0.0);
     if (shortened.size() > 2 && shortened.compare(shortened.size() - 2, 2, ".0") == 0)
         shortened.resize(shortened.size() - 2);
     return shortened == "-0" ? "0" : shortened;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/json_text.h"
+#include "base/printed.h"
 #include "base/shown_text.h"
 #include "html_text.h"
 
@@ -23,11 +24,8 @@ bool is_short_list(const ordered_json& value)
 
 std::string scalar(const ordered_json& value)
 {
-    if (value.is_number_float()) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.5g", value.get<double>());
-        return text;
-    }
+    if (value.is_number_float())
+        return printed("%.5g", value.get<double>());
     return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 

@@ -2,8 +2,8 @@
 #include "report_images.h"
 
 #include <cmath>
-#include <cstdio>
 
+#include "base/printed.h"
 #include "base64.h"
 #include "html_text.h"
 #include "image_details.h"
@@ -19,11 +19,8 @@ constexpr std::size_t kWorst = 10; ///< that have a heading of their own
 template<class Numbers> std::string list(const Numbers& numbers)
 {
     std::string text;
-    for (const double one : numbers) {
-        char digits[32];
-        std::snprintf(digits, sizeof digits, "%.7g", std::isfinite(one) ? one : 0.0);
-        text += (text.empty() ? "" : " ") + std::string(digits);
-    }
+    for (const double one : numbers)
+        text += (text.empty() ? "" : " ") + printed("%.7g", std::isfinite(one) ? one : 0.0);
     return text;
 }
 
