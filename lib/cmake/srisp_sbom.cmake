@@ -3,8 +3,8 @@
 # sbom_install.cmake adds the files, which are known then. docs/contributing.md has the reasons for each.
 set(SRISP_SBOM_PACKAGES "")
 
-# srisp_sbom(NAME VERSION LICENCE KIND LIBRARY...): something that was found. KIND: DYNAMIC_LINK, DEPENDS_ON (headers, whose
-# code is in our files), RUNTIME_DEPENDENCY_OF. LIBRARY: its names as programs need them, without versions.
+# srisp_sbom(NAME VERSION LICENCE KIND LIBRARY...): something that was found. KIND: DYNAMIC_LINK, or DEPENDS_ON (headers, whose
+# code is in our files). LIBRARY: its names as programs need them, without versions.
 macro(srisp_sbom name version licence kind)
     if(NOT "${version}" STREQUAL "")
         string(REPLACE ";" " " libraries "${ARGN}")
@@ -12,13 +12,9 @@ macro(srisp_sbom name version licence kind)
     endif()
 endmacro()
 
-foreach(package nlohmann_json CLI11 OpenColorIO)
+foreach(package nlohmann_json CLI11 OpenColorIO) # found in other folders
     find_package(${package} QUIET)
 endforeach()
-if(TARGET srisp_python)
-    find_package(pybind11 QUIET)
-    find_package(OpenEXR QUIET)
-endif()
 
 srisp_sbom(OpenImageIO "${OpenImageIO_VERSION}" BSD-3-Clause DYNAMIC_LINK libOpenImageIO libOpenImageIO_Util)
 srisp_sbom(OpenColorIO "${OpenColorIO_VERSION}" BSD-3-Clause DYNAMIC_LINK libOpenColorIO)
@@ -32,7 +28,6 @@ srisp_sbom(pugixml "${PUGIXML_VERSION}" MIT DYNAMIC_LINK libpugixml)
 srisp_sbom(zlib "${ZLIB_VERSION}" Zlib DYNAMIC_LINK libz)
 srisp_sbom(Highway "${HWY_VERSION}" Apache-2.0 DYNAMIC_LINK libhwy)
 srisp_sbom(xxHash "${XXHASH_VERSION}" BSD-2-Clause DEPENDS_ON)
-srisp_sbom(Imath "${Imath_VERSION}" BSD-3-Clause DEPENDS_ON)
 srisp_sbom(nlohmann-json "${nlohmann_json_VERSION}" MIT DEPENDS_ON)
 srisp_sbom(CLI11 "${CLI11_VERSION}" BSD-3-Clause DEPENDS_ON)
 if(TARGET srisp_python)

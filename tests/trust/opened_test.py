@@ -179,14 +179,23 @@ for row in "~/secret.dng", "$SECRET/secret.dng", "|touch ran", "http://127.0.0.1
     check(f"a table with {row!r} is refused", done.returncode != 0, done.stdout)
     mine = [file for file in files_of(trace) if file.startswith(str(work / "none"))]
     judged(f"a table with {row!r}", trace, {*BATCH, *mine}, {"set", "none", "."})
-# A manifest that somebody else wrote: --verify looks at the results in its folder, and at no others.
+# A manifest that somebody else wrote names results in its folder, and settings beside itself; others are refused.
 manifest = next((work / "made" / "manifest").glob("*.jsonl"))
 line = json.loads(manifest.read_text().splitlines()[0])
 for stolen in "../../outside/secret.json", str(outside / "secret.json"):
     manifest.write_text(json.dumps({**line, "output": stolen}) + "\n")
-    done, trace = traced(tool("srispbatch"), "--verify", "made")
-    mine = [file for file in files_of(trace) if file.startswith(str(work / "made"))]
-    judged(f"a manifest that lists {stolen!r}", trace, mine, {"made", "."})
+    for words in ["--verify", "made"], ["--merge", "made"], ["set", "--reference", "ref.dng", "-o", "made", "--quiet"]:
+        done, trace = traced(tool("srispbatch"), *words)
+        check(f"{words[0]}: a manifest that lists {stolen!r} is refused, with its line",
+              done.returncode == 1 and "line 1: output" in done.stderr, done.stderr)
+        mine = [file for file in files_of(trace) if file.startswith(str(work / "made"))]
+        judged(f"{words[0]}: a manifest that lists {stolen!r}", trace, [*mine, *BATCH], {"set", "made", "."})
+(work / "made" / "manifest" / "settings-").mkdir()
+manifest.write_text(json.dumps({**line, "settings": "xxh128:/../../../../outside/secret"}) + "\n")
+done, trace = traced(tool("srispbatch"), "--redo", "made/a.exr", "-o", "again.exr")
+check("settings elsewhere are refused", done.returncode == 1 and "are no hash" in done.stderr, done.stderr)
+mine = [file for file in files_of(trace) if file.startswith(str(work / "made"))]
+judged("a manifest that names settings elsewhere", trace, [*mine, *BATCH], {"made", "."})
 
 # OpenColorIO: the config names our bakes by a context variable; the bake is a file of numbers.
 works(tool("srispbake"), "--reference", "ref.dng", "-o", "ref.dng", "--lut-size", "9", "-q", cwd=work)
@@ -200,5 +209,11 @@ made("an OpenColorIO config", "oiiotool", "--colorconfig", "srisp.ocio", "photo.
                                                                              ("unprocess", "process", "develop"))}, listed={"."})
 made("srispbake", tool("srispbake"), "--reference", "ref.dng", "-o", "baked", "--lut-size", "9", "-q",
      allowed={"ref.dng", *(f"baked.{kind}.clf" for kind in ("unprocess", "process", "develop"))}, listed={"."})
+
+# Python.
+if (BUILD / "python").is_dir():
+    os.environ["PYTHONPATH"] = str(BUILD / "python")
+    made("the Python package", "/usr/bin/python3", "-B", "-c", "import srisp; srisp.unprocess('photo.jpg', 'ref.dng').save('py.exr')",
+         allowed={"photo.jpg", "ref.dng", "py.exr"}, listed={"."})
 
 finish()

@@ -155,7 +155,7 @@ TEST_CASE("the golden models load")
 TEST_CASE("another file under a shipped name is the user's own in a folder of SRISP_MODEL_PATH, and by its path")
 {
     const ScratchFolder folder;
-    const std::string path = random_model(4, 1).write(folder.path("default.safetensors"));
+    const std::string path = random_model(1, 4).write(folder.path("default.safetensors"));
     CHECK(Model::load(path));
     ::setenv("SRISP_MODEL_PATH", folder.path("").c_str(), 1);
     const auto own = Model::load("default");

@@ -78,7 +78,7 @@ TEST_CASE("Of absolute paths the last name is left, quoted or not; other words s
     CHECK(without_folders("--srisp-unprocess:params=/home/me/look.json:seed=3 '/a/1.dng;/a/2.dng'") ==
           "--srisp-unprocess:params=look.json:seed=3 '1.dng;2.dng'");
     CHECK(without_folders("'--srisp-unprocess:params=/home/me too/look.json:seed=3' /refs/") ==
-          "'--srisp-unprocess:params=look.json:seed=3' refs");
+          "'--srisp-unprocess:params=look.json:seed=3' refs/");
     CHECK(without_folders("OpenImageIO 2.4.7.1 : oiiotool /home/me/x.jpg") == "OpenImageIO 2.4.7.1 : oiiotool x.jpg");
     for (const char* same :
          { "", "/", "a/b.jpg -o ../c.exr", "https://example.org/a/b", "1/60 f/8 -resize 50%x0", "'" })

@@ -70,8 +70,9 @@ TEST_CASE("a bake of another reference is not overwritten, one of the same is")
         folder.file("r.dng.unprocess.clf", "<Description>" + clf_escaped(line) + "</Description>\n");
     CHECK(failure_of([&] { refuse_bake_of_another(bake, "/a & b/r & r.dng"); }) == "");
     CHECK(failure_of([&] { refuse_bake_of_another(bake, "/c/r & r.dng"); }) ==
-          "1: '" + bake + "' is the bake of another reference, of the same name, in another folder than '/c'; remove "
-          "it, or give -o NAME");
+          "1: '" + bake +
+              "' is the bake of another reference, of the same name, in another folder than '/c'; remove "
+              "it, or give -o NAME");
     CHECK(failure_of([&] { refuse_bake_of_another(folder.path("none"), "/c/r.dng"); }) == "");
     CHECK(failure_of([&] { refuse_bake_of_another(folder.file("other", "text"), "/c/r.dng"); }) == "");
 }
