@@ -7,7 +7,7 @@ set(SRISP_SBOM_PACKAGES "")
 # code is in our files). LIBRARY: its names as programs need them, without versions.
 macro(srisp_sbom name version licence kind)
     if(NOT "${version}" STREQUAL "")
-        string(REPLACE ";" " " libraries "${ARGN}")
+        string(REPLACE ";" " " libraries "libraries: ${ARGN}")
         string(APPEND SRISP_SBOM_PACKAGES "${name}|${version}|${licence}|${kind}|${libraries}\n")
     endif()
 endmacro()
