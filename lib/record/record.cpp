@@ -236,7 +236,7 @@ void append_notes(OIIO::ImageSpec& spec, const std::vector<std::string>& notes)
         all.push_back(before);
     all.insert(all.end(), notes.begin(), notes.end());
     if (!all.empty())
-        spec.attribute(attribute::kNotes, OIIO::Strutil::join(all, "; "));
+        spec.attribute(attribute::kNotes, without_folders(OIIO::Strutil::join(all, "; ")));
 }
 
 std::array<float, 3> recorded_reference_neutral(const OIIO::ImageSpec& spec)

@@ -77,7 +77,7 @@ std::string recorded_space(const OIIO::ImageSpec& spec);
 /// it the last names.
 void append_history(OIIO::ImageSpec& spec, const std::string& typed);
 
-/// Adds to what the image says was ignored or assumed.
+/// Adds to what the image says was ignored or assumed; of absolute paths the last names.
 void append_notes(OIIO::ImageSpec& spec, const std::vector<std::string>& notes);
 
 /// The plain mark that an image is synthetic.

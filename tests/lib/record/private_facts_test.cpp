@@ -97,6 +97,7 @@ TEST_CASE("A result, its development and the development of a camera's own file 
     OIIO::ImageSpec result = photo, processed = photo, developed = photo;
     mark_result(result, Direction::reverse);
     append_history(result, "srisptool /data/y.jpg -o /data/z.exr");
+    append_notes(result, { "plain samples without a header, read as '/data/plate.json' says" });
     mark_result(processed, Direction::forward);
     record_development(developed, *find_scene_linear_space("ACEScg"), "");
     for (const OIIO::ImageSpec* spec : { &result, &processed, &developed }) {
@@ -107,4 +108,6 @@ TEST_CASE("A result, its development and the development of a camera's own file 
         CHECK(spec->get_string_attribute("DocumentName") == "x.jpg");
     }
     CHECK(result.get_string_attribute("Exif:ImageHistory") == "oiiotool 'my x.jpg' -o y.jpg\nsrisptool y.jpg -o z.exr");
+    CHECK(result.get_string_attribute(attribute::kNotes) ==
+          "plain samples without a header, read as 'plate.json' says");
 }
