@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "../../../ocio/src/operators.h"
 #include "../failure_of.h"
 #include "scratch_folder.h"
 
@@ -65,7 +66,8 @@ TEST_CASE("a bake of another reference is not overwritten, one of the same is")
 {
     const ScratchFolder folder;
     const std::string line = reference_line("/a & b/r & r.dng");
-    CHECK(line == "Reference: r & r.dng, in the folder xxh64:aa8a8a5b3bbcb8b9");
+    CHECK(line.rfind("Reference: r & r.dng, in the folder xxh64:", 0) == 0);
+    CHECK(line.find('/') == std::string::npos);
     const std::string bake =
         folder.file("r.dng.unprocess.clf", "<Description>" + clf_escaped(line) + "</Description>\n");
     CHECK(failure_of([&] { refuse_bake_of_another(bake, "/a & b/r & r.dng"); }) == "");
