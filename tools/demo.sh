@@ -45,16 +45,16 @@ oiiotool raw.exr $view --powc 0.4545 -d uint8 -o 2_raw_like.png
 oiiotool raw.exr $view --mulc "$white_balance" --clamp:min=0:max=1 --powc 0.4545 -d uint8 -o 3_white_balanced.png
 oiiotool photo_again.png $view -d uint8 -o 4_photo_again.png
 
-# caption FILE TEXT: commands that put a line of text above a picture.
+# captioned FILE TEXT: puts a line of text above a picture, and takes from it what the photo's camera told of place and owner.
 captioned() {
-    oiiotool "$1" --create '{TOP.width}x{TOP.height+30}' 3 --paste +0+30 \
+    oiiotool --nosoftwareattrib "$1" --eraseattrib '.*' --create '{TOP.width}x{TOP.height+30}' 3 --paste +0+30 \
         --text:x=6:y=21:size=17:font=DejaVuSans "$2" -d uint8 -o "$1"
 }
 captioned 1_photo.png "photo"
 captioned 2_raw_like.png "RAW-like, shown at gamma 2.2"
 captioned 3_white_balanced.png "RAW-like, white-balanced, gamma 2.2"
 captioned 4_photo_again.png "the photo again, by the forward pipeline"
-oiiotool 1_photo.png 2_raw_like.png 3_white_balanced.png 4_photo_again.png --mosaic:pad=8 2x2 -d uint8 -o sheet.png
+oiiotool --nosoftwareattrib 1_photo.png 2_raw_like.png 3_white_balanced.png 4_photo_again.png --mosaic:pad=8 2x2 -d uint8 -o sheet.png
 
 echo "demo: the sheet of pictures   $out/sheet.png"
 echo "demo: the RAW-like image      $out/raw.exr (float, linear camera RGB)"

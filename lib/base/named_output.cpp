@@ -42,7 +42,8 @@ NamedOutput::NamedOutput(std::string path) : m_path(std::move(path)), m_device(i
         return;
     }
     remove_leftover_files(target);
-    const Expected<Unfinished> made = make_unfinished_file(target);
+    // What a device or pipe gets is none of other users' business.
+    const Expected<Unfinished> made = m_device ? make_private_unfinished_file(target) : make_unfinished_file(target);
     if (!made) {
         m_created = made.error();
         return;

@@ -77,6 +77,13 @@ Expected<Unfinished> make(const fs::path& target, const std::function<int(const 
     return Error{ "other programs remove what is made" };
 }
 
+Expected<Unfinished> make_file(const fs::path& target, mode_t mode)
+{
+    return make(target, [mode](const std::string& path) {
+        return ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+    });
+}
+
 } // namespace
 
 fs::path unfinished_name(const fs::path& target)
@@ -94,9 +101,12 @@ bool is_unfinished_name(const std::string& name, const fs::path& target)
 
 Expected<Unfinished> make_unfinished_file(const fs::path& target)
 {
-    return make(target, [](const std::string& path) {
-        return ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-    });
+    return make_file(target, 0666);
+}
+
+Expected<Unfinished> make_private_unfinished_file(const fs::path& target)
+{
+    return make_file(target, 0600);
 }
 
 Expected<Unfinished> make_unfinished_folder(const fs::path& target)

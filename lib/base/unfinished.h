@@ -28,6 +28,8 @@ struct Unfinished {
 
 /// Makes one that was not there before; no link is followed. Errors: the disk's own, in its words.
 Expected<Unfinished> make_unfinished_file(const std::filesystem::path& target);
+/// The same for its owner only.
+Expected<Unfinished> make_private_unfinished_file(const std::filesystem::path& target);
 /// A folder for its owner only.
 Expected<Unfinished> make_unfinished_folder(const std::filesystem::path& target);
 

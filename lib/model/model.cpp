@@ -25,6 +25,8 @@ Expected<std::shared_ptr<const Model>> Model::load(const std::string& name_or_pa
         Expected<std::string> bytes = read_file(*path, kMaxModelBytes, where);
         if (!bytes)
             return bytes.error();
+        if (const Status shipped = check_shipped_model(name_or_path, *path, *bytes); !shipped)
+            return Error{ where + ": " + shipped.error().message };
         Expected<std::unique_ptr<ModelData>> model = parse_model(*bytes, where);
         if (!model)
             return model.error();

@@ -10,6 +10,7 @@
 
 #include "base/guarded.h"
 #include "base/matrix3.h"
+#include "record/private_facts.h"
 #include "record/record.h"
 
 namespace srisp {
@@ -91,6 +92,7 @@ void mark_result(OIIO::ImageSpec& spec, Direction direction)
     auto& attributes = spec.extra_attribs;
     for (auto attribute = attributes.begin(); attribute != attributes.end();)
         attribute = describes_source(attribute->name()) ? attributes.erase(attribute) : attribute + 1;
+    erase_private_facts(spec);
     const bool reverse = direction == Direction::reverse;
     // The name is set directly: ImageSpec::set_colorspace knows only spaces for display.
     spec.attribute("oiio:ColorSpace", reverse ? kCameraColorSpace : "sRGB");

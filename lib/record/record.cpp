@@ -6,6 +6,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include "base/json_text.h"
+#include "record/private_facts.h"
 
 namespace srisp {
 
@@ -126,6 +127,7 @@ void write_record(OIIO::ImageSpec& spec, const RecordLine& record)
 
 void record_development(OIIO::ImageSpec& spec, const SceneLinearSpace& space, const std::string& development)
 {
+    erase_private_facts(spec); // of a camera's own file
     if (auto record = read_record(spec)) {
         record->development = development;
         write_record(spec, *record);
@@ -152,8 +154,9 @@ std::string recorded_space(const OIIO::ImageSpec& spec)
     return space != development->end() && space->is_string() ? space->get<std::string>() : std::string();
 }
 
-void append_history(OIIO::ImageSpec& spec, const std::string& command)
+void append_history(OIIO::ImageSpec& spec, const std::string& typed)
 {
+    const std::string command = without_folders(typed);
     const std::string history = spec.get_string_attribute(kHistory);
     if (!command.empty() && !OIIO::Strutil::ends_with(history, command))
         spec.attribute(kHistory, history + (history.empty() ? "" : "\n") + command);
@@ -233,7 +236,7 @@ void append_notes(OIIO::ImageSpec& spec, const std::vector<std::string>& notes)
         all.push_back(before);
     all.insert(all.end(), notes.begin(), notes.end());
     if (!all.empty())
-        spec.attribute(attribute::kNotes, OIIO::Strutil::join(all, "; "));
+        spec.attribute(attribute::kNotes, without_folders(OIIO::Strutil::join(all, "; ")));
 }
 
 std::array<float, 3> recorded_reference_neutral(const OIIO::ImageSpec& spec)

@@ -73,10 +73,11 @@ std::string recorded_development(const OIIO::ImageSpec& spec);
 /// The space of such an image; empty: not known. (Of "oiio:ColorSpace" readers have ideas of their own.)
 std::string recorded_space(const OIIO::ImageSpec& spec);
 
-/// Adds a command to the image's history, once: a command line may hold several of our commands.
-void append_history(OIIO::ImageSpec& spec, const std::string& command);
+/// Adds a command to the image's history, once: a command line may hold several of our commands. Of absolute paths in
+/// it the last names.
+void append_history(OIIO::ImageSpec& spec, const std::string& typed);
 
-/// Adds to what the image says was ignored or assumed.
+/// Adds to what the image says was ignored or assumed; of absolute paths the last names.
 void append_notes(OIIO::ImageSpec& spec, const std::vector<std::string>& notes);
 
 /// The plain mark that an image is synthetic.

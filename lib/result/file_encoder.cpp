@@ -2,6 +2,7 @@
 #include "result/file_encoder.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "base/installed_files.h"
@@ -69,7 +70,8 @@ Status FileEncoder::begin(const OIIO::ImageSpec& image, OIIO::TypeDesc type, con
     if (!compression.empty())
         m_spec.attribute("compression", compression);
     m_bytes->reserve(m_spec.image_bytes()); // most files become smaller; memory that is not written costs nothing
-    return written(m_output->open(m_name, m_spec));
+    // Some writers (DPX) record the name, which shall name no folder.
+    return written(m_output->open(std::filesystem::path(m_name).filename().string(), m_spec));
 }
 
 Status FileEncoder::add_rows(const float* rows, int count)

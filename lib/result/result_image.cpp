@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "result/result_image.h"
 
-#include <OpenImageIO/strutil.h>
 #include <srisp/metadata.h>
 
 #include "record/record.h"
@@ -76,8 +75,7 @@ void ResultImage::record(Level& level, const Choice& choice) const
                   m_recipe.direction);
     std::vector<std::string> notes = level.converter->notes();
     notes.insert(notes.end(), choice.notes.begin(), choice.notes.end());
-    if (!notes.empty())
-        level.result.attribute(attribute::kNotes, OIIO::Strutil::join(notes, "; "));
+    append_notes(level.result, notes);
     append_history(level.result, m_recipe.command);
     level.recorded = true;
 }

@@ -52,7 +52,7 @@ names_no_absolute_folders() {
         "$prefix"/lib/python*/dist-packages/srisp/*.so; do
         if readelf -d "$file" 2>/dev/null | grep -E 'R(UN)?PATH' | grep -E '\[/|:/'; then return 1; fi
     done
-    ! grep -rnF -e "$build" -e "$source" "$library/cmake" "$library/pkgconfig"
+    ! grep -rlaF -e "$build" -e "$source" "$prefix"
 }
 
 gives_the_pixel_of_the_bake() {
@@ -77,6 +77,23 @@ check "models are those beside the library" models_are_those_beside_the_library
 check "libsrisp exports nothing but srisp's own names" exports_only_srisp libsrisp.so select
 check "and so does libsrisp_ocio" exports_only_srisp libsrisp_ocio.so transform_from_context
 check "what is installed names no folder of the build, and has no run path but \$ORIGIN" names_no_absolute_folders
+nobody_else_may_write() { ! find "$prefix" -type f -perm -o+w | grep .; }
+check "others may write to nothing that is installed" nobody_else_may_write
+model_that_was_changed() {
+    cp -r "$prefix/bin" "$prefix/lib" "$prefix/libexec" "$prefix/share" "$scratch/copy/" && chmod -R u+w "$scratch/copy" || return 1
+    model=$(find "$scratch/copy" -name default.safetensors)
+    "$scratch/copy/bin/srisptool" "$photo" --srisp-params "$sample" || return 1
+    cp "$prefix/share/srisp/models/spatial.safetensors" "$model"
+    ! "$scratch/copy/bin/srisptool" "$photo" --srisp-params "$sample" 2>"$scratch/stderr" \
+        && grep -F "default.safetensors': is not the file that ships under this name: its SHA-256 is $(sha256sum <"$model" | cut -c1-64)" \
+            "$scratch/stderr" || return 1
+    # By its path, and from a folder of the user's own, it is the user's.
+    "$scratch/copy/bin/srisptool" "$photo" "--srisp-params:model=$model" "$sample" \
+        && mkdir "$scratch/own" && cp "$model" "$scratch/own/" \
+        && SRISP_MODEL_PATH="$scratch/own" "$scratch/copy/bin/srisptool" "$photo" --srisp-params "$sample"
+}
+mkdir "$scratch/copy"
+check "a model that does not ship under its name is refused in the installed place, and nowhere else" model_that_was_changed
 check "a host of OpenColorIO builds with find_package(srisp COMPONENTS ocio)" with_cmake package_ocio
 check "it runs, and its pixel is that of the bake" gives_the_pixel_of_the_bake "$scratch/package_ocio/host"
 check "it builds with pkg-config" with_pkg_config package_ocio srisp_ocio host

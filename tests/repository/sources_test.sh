@@ -14,9 +14,12 @@ one_json_door() { ! grep -E '^(lib|plugin|ocio|tools)/' "$scratch/cpp" | grep -v
     xargs -d '\n' grep -nE '(::|\.)(sax_)?parse\(|json::accept\(|json_stream' | grep -E 'json|sax_'; }
 parses() { grep '\.sh$' "$scratch/sources" | while read -r file; do sh -n "$file" || return 1; done; }
 
+tells_no_command() { ! grep -lraE 'oiiotool .* -o |/home/' docs/images configs/sample; }
+
 check "every source file has its SPDX line" has_licence
 check "no source file is longer than 500 lines" fits
 check "every shell script parses" parses
+check "no picture tells the command that made it" tells_no_command
 check "JSON is parsed by lib/base/json_text.cpp alone, which knows limits" one_json_door
 if command -v clang-format-14 >/dev/null; then
     check "clang-format-14 would change nothing" formatted

@@ -103,8 +103,7 @@ private:
     void add_file(const std::string& path)
     {
         const fs::path plain = fs::path(path).lexically_normal();
-        const bool leads_out = plain.is_absolute() || *plain.begin() == "..";
-        m_files.push_back({ path, leads_out ? plain.filename().string() : plain.string() });
+        m_files.push_back({ path, leads_out(path) ? plain.filename().string() : plain.string() });
     }
 
     void add_glob(const std::string& pattern)
@@ -151,6 +150,12 @@ private:
 };
 
 } // namespace
+
+bool leads_out(const std::string& path)
+{
+    const fs::path plain = fs::path(path).lexically_normal();
+    return plain.is_absolute() || (!plain.empty() && *plain.begin() == "..");
+}
 
 const FileKind& photo_files()
 {

@@ -21,6 +21,9 @@ struct FileKind {
     std::function<bool(const std::filesystem::path&)> is_one; ///< by the name of a file
 };
 
+/// Whether a path that is relative to a folder is absolute all the same, or climbs out of it.
+bool leads_out(const std::string& path);
+
 /// Images, by the endings of their names.
 const FileKind& photo_files();
 

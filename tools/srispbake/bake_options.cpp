@@ -9,6 +9,7 @@
 #include "../common/failure.h"
 #include "base/device_output.h"
 #include "base/file_bytes.h"
+#include "base/hashes.h"
 #include "base/shown_text.h"
 #include "ocio/src/operators.h"
 
@@ -211,7 +212,10 @@ std::vector<OutputName> output_names(const std::string& reference, const std::st
 
 std::string reference_line(const std::string& reference)
 {
-    return kReferenceLine + reference;
+    const fs::path path(reference);
+    const std::string folder = path.parent_path().string();
+    return kReferenceLine + path.filename().string() + ", in the folder " +
+           xxh64_of_bytes(folder.data(), folder.size());
 }
 
 void refuse_bake_of_another(const std::string& path, const std::string& reference)
@@ -223,8 +227,8 @@ void refuse_bake_of_another(const std::string& path, const std::string& referenc
         return;
     const std::string line = head->substr(start, head->find_first_of("<\n", start) - start);
     if (line != reference_line(reference) && line != clf_escaped(reference_line(reference)))
-        fail("'" + path + "' is the bake of another reference (" + shown_text(line.substr(sizeof kReferenceLine - 1)) +
-             "); remove it, or give -o NAME");
+        fail("'" + path + "' is the bake of another reference, of the same name, in another folder than '" +
+             fs::path(reference).parent_path().string() + "'; remove it, or give -o NAME");
 }
 
 } // namespace srisp::tool

@@ -67,7 +67,8 @@ std::vector<OutputName> output_names(const std::string& reference, const std::st
 /// SRISP_BAKE_PATH those of two folders may have one name.
 void refuse_bake_of_another(const std::string& path, const std::string& reference);
 
-/// The line of a bake's description that tells its reference: "Reference: /plates/ref.dng".
+/// The line of a bake's description that tells its reference, an absolute path, and names no folder:
+/// "Reference: ref.dng, in the folder xxh64:0123456789abcdef".
 std::string reference_line(const std::string& reference);
 
 } // namespace srisp::tool

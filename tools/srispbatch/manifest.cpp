@@ -12,10 +12,12 @@
 #include <fstream>
 
 #include "../common/failure.h"
+#include "../common/file_list.h"
 #include "base/hashes.h"
 #include "base/input_file.h"
 #include "base/json_text.h"
 #include "base/output_file.h"
+#include "base/shown_text.h"
 
 namespace srisp::tool {
 
@@ -113,8 +115,12 @@ void for_each_record(
         for (std::string text; std::getline(lines, text);) {
             ++number;
             const auto line = parse_json<ordered_json>(text);
-            if (line && line->is_object() && !text_of(*line, "output").empty() && number_of(*line, "bytes") >= 0)
-                use(*line, file, number);
+            if (!line || !line->is_object() || text_of(*line, "output").empty() || number_of(*line, "bytes") < 0)
+                continue;
+            if (leads_out(text_of(*line, "output")))
+                fail("manifest '" + file + "', line " + std::to_string(number) + ": output '" +
+                     shown_text(text_of(*line, "output")) + "' is not in the folder '" + output + "'");
+            use(*line, file, number);
         }
     }
 }
@@ -223,6 +229,8 @@ std::vector<std::string> read_plan(const std::string& output)
 
 std::string read_settings(const std::string& output, const std::string& hash)
 {
+    if (hash.find('/') != std::string::npos)
+        fail("settings '" + shown_text(hash) + "' are no hash");
     const std::string path = settings_path(manifest_folder(output), hash);
     auto text = read_text_file(path, kLargestJson);
     if (!text)

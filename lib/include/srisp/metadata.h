@@ -20,7 +20,8 @@ constexpr const char* kCameraColorSpace = "camera_rgb";
 
 /// Writes what holds before the parameters are known: the plain mark that the image is synthetic and the name of its
 /// colour space; erases what described the encoding or the pixels of the source (ICC profile, Exif:ColorSpace, gamma,
-/// chromaticities, checksums, …) and what srisp recorded of an earlier step.
+/// chromaticities, checksums, …), what srisp recorded of an earlier step, and what is private: where the source was
+/// taken, serial numbers, owners, identifiers (docs/privacy.md).
 SRISP_API void mark_result(OIIO::ImageSpec& spec, Direction direction);
 
 /// `mark_result`, then parameters, names and hashes, and for `Direction::reverse` the reference's camera facts

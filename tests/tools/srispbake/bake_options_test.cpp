@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "../../../ocio/src/operators.h"
 #include "../failure_of.h"
 #include "scratch_folder.h"
 
@@ -64,11 +65,16 @@ TEST_CASE("a pair is named after the reference or what -o says, and one file is 
 TEST_CASE("a bake of another reference is not overwritten, one of the same is")
 {
     const ScratchFolder folder;
+    const std::string line = reference_line("/a & b/r & r.dng");
+    CHECK(line.rfind("Reference: r & r.dng, in the folder xxh64:", 0) == 0);
+    CHECK(line.find('/') == std::string::npos);
     const std::string bake =
-        folder.file("r.dng.unprocess.clf", "<Description>Reference: /a &amp; b/r.dng</Description>\n");
-    CHECK(failure_of([&] { refuse_bake_of_another(bake, "/a & b/r.dng"); }) == "");
-    CHECK(failure_of([&] { refuse_bake_of_another(bake, "/c/r.dng"); }) ==
-          "1: '" + bake + "' is the bake of another reference (/a &amp; b/r.dng); remove it, or give -o NAME");
+        folder.file("r.dng.unprocess.clf", "<Description>" + clf_escaped(line) + "</Description>\n");
+    CHECK(failure_of([&] { refuse_bake_of_another(bake, "/a & b/r & r.dng"); }) == "");
+    CHECK(failure_of([&] { refuse_bake_of_another(bake, "/c/r & r.dng"); }) ==
+          "1: '" + bake +
+              "' is the bake of another reference, of the same name, in another folder than '/c'; remove "
+              "it, or give -o NAME");
     CHECK(failure_of([&] { refuse_bake_of_another(folder.path("none"), "/c/r.dng"); }) == "");
     CHECK(failure_of([&] { refuse_bake_of_another(folder.file("other", "text"), "/c/r.dng"); }) == "");
 }
