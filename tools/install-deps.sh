@@ -9,7 +9,7 @@ set -eu
 packages="
     cmake g++ ninja-build pkg-config
     doctest-dev libcli11-dev libhwy-dev libimath-dev liblcms2-dev libopencolorio-dev libopenexr-dev libopenimageio-dev
-    libheif-dev libjpeg-dev libpugixml-dev libraw-dev libtiff-dev libwebp-dev
+    libheif-dev libjpeg-dev libpugixml-dev libraw-dev libssl-dev libtiff-dev libwebp-dev
     libxxhash-dev nlohmann-json3-dev pybind11-dev python3-dev zlib1g-dev
     openimageio-tools python3-openimageio python3-numpy fonts-dejavu-core
 "

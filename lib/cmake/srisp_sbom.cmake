@@ -26,6 +26,7 @@ srisp_sbom(libjpeg-turbo "${JPEG_VERSION}" "IJG AND BSD-3-Clause AND Zlib" DYNAM
 srisp_sbom(libwebp "${WEBP_libwebp_VERSION}" BSD-3-Clause DYNAMIC_LINK libwebp libwebpdemux)
 srisp_sbom(pugixml "${PUGIXML_VERSION}" MIT DYNAMIC_LINK libpugixml)
 srisp_sbom(zlib "${ZLIB_VERSION}" Zlib DYNAMIC_LINK libz)
+srisp_sbom(OpenSSL "${CRYPTO_VERSION}" Apache-2.0 DYNAMIC_LINK libcrypto)
 srisp_sbom(Highway "${HWY_VERSION}" Apache-2.0 DYNAMIC_LINK libhwy)
 srisp_sbom(xxHash "${XXHASH_VERSION}" BSD-2-Clause DEPENDS_ON)
 srisp_sbom(nlohmann-json "${nlohmann_json_VERSION}" MIT DEPENDS_ON)

@@ -7,6 +7,7 @@
 #include "model/model_data.h"
 #include "model/model_files.h"
 #include "model/safetensors.h"
+#include "model/shipped_model.h"
 
 namespace srisp {
 

@@ -9,9 +9,7 @@
 
 #include "base/installed_files.h"
 #include "base/near_names.h"
-#include "base/sha256.h"
 #include "base/shown_text.h"
-#include "shipped_models.h"
 
 namespace srisp {
 
@@ -69,20 +67,6 @@ Expected<std::string> find_model_file(const std::string& name_or_path)
         return files.front();
     return Error{ "unknown model '" + shown_text(name_or_path) + "'" + near_names(name_or_path, model_names()) + " (" +
                   model_folder_list() + ")" };
-}
-
-Status check_shipped_model(const std::string& name_or_path, const std::string& path, const std::string& bytes)
-{
-    const fs::path installed = shared_folder("models");
-    for (const auto& [name, expected] : kShippedModels) {
-        if (name_or_path != name || installed.empty() || path != installed / (name_or_path + kExtension))
-            continue;
-        if (const std::string hash = sha256_of_bytes(bytes.data(), bytes.size()); hash != expected)
-            return Error{ "is not the file that ships under this name: its SHA-256 is " + hash + ", expected " +
-                          expected +
-                          "; install srisp anew, or put a model of yours into a folder of SRISP_MODEL_PATH" };
-    }
-    return {};
 }
 
 std::vector<std::string> model_files_named(const std::string& name)

@@ -11,10 +11,6 @@ namespace srisp {
 /// The file that a model's name or path means [Model::load]; the error lists the near names and the folders.
 Expected<std::string> find_model_file(const std::string& name_or_path);
 
-/// Whether a file that find_model_file found under a name is what ships under that name, where it lies in the installed
-/// folder; others, and those that are named by path, are the user's own. The error gives both hashes.
-Status check_shipped_model(const std::string& name_or_path, const std::string& path, const std::string& bytes);
-
 /// For messages, "looked in a, b": where models lie that are known by name, the folders of SRISP_MODEL_PATH, then the
 /// installed one.
 std::string model_folder_list();

@@ -6,10 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include "base/input_file.h"
-#include "base/sha256.h"
 #include "model/model_data.h"
-#include "model/model_files.h"
 #include "random_model.h"
 #include "shared_files.h"
 
@@ -149,36 +146,5 @@ TEST_CASE("the golden models load")
                               "golden/model_paper.safetensors" }) {
         SKIP_WITHOUT_SHARED(name);
         CHECK(message(shared_file(name)) == "no error");
-    }
-}
-
-TEST_CASE("another file under a shipped name is the user's own in a folder of SRISP_MODEL_PATH, and by its path")
-{
-    const ScratchFolder folder;
-    const std::string path = random_model(1, 4).write(folder.path("default.safetensors"));
-    CHECK(Model::load(path));
-    ::setenv("SRISP_MODEL_PATH", folder.path("").c_str(), 1);
-    const auto own = Model::load("default");
-    ::unsetenv("SRISP_MODEL_PATH");
-    REQUIRE_MESSAGE(own, (own ? "" : own.error().message));
-    CHECK((*own)->path().rfind(folder.path(""), 0) == 0);
-}
-
-TEST_CASE("what ships is known by its hash, and other bytes in the installed place are told apart")
-{
-    const std::string installed = (*Model::load("default"))->path();
-    const std::string good = *read_file(installed, 64 << 20, "model");
-    CHECK(check_shipped_model("default", installed, good));
-    CHECK(check_shipped_model(installed, installed, "other")); // named by its path
-    CHECK(check_shipped_model("mine", installed, "other"));    // ships under no such name
-    CHECK(check_shipped_model("default", "own/default.safetensors", "other"));
-    std::string changed = good;
-    changed[changed.size() / 2] ^= 1;
-    for (const std::string& bytes : { changed, good.substr(0, good.size() - 1), std::string() }) {
-        const Status refused = check_shipped_model("default", installed, bytes);
-        REQUIRE_FALSE(refused);
-        CHECK(refused.error().message.find("its SHA-256 is " + sha256_of_bytes(bytes.data(), bytes.size()) +
-                                           ", expected " + sha256_of_bytes(good.data(), good.size())) !=
-              std::string::npos);
     }
 }
