@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/guarded.h"
+#include "container/image_memory.h"
 #include "recipe/recipe.h"
 #include "result/computed_image.h"
 #include "result/kept_results.h"
@@ -67,13 +68,15 @@ Status pass_result(Recipe recipe, const MemoryImage* memory, const ImageSink& si
     return {};
 }
 
-/// A whole image of what `pass` gives to a sink.
-template<class Pass> Expected<Image> image_of(const Pass& pass)
+/// A whole image of what `pass` gives to a sink. `input`: what it is made of.
+template<class Pass> Expected<Image> image_of(const ImageInput& input, const Pass& pass)
 {
     OIIO::ImageSpec spec;
     std::vector<float> pixels;
     ImageSink sink;
     sink.begin = [&](const OIIO::ImageSpec& known) -> Status {
+        if (const Status fits = check_memory(known.image_pixels(), known.nchannels); !fits)
+            return Error{ "image made of '" + input.name() + "' " + fits.error().message };
         spec = known;
         pixels.reserve(spec.image_pixels() * std::size_t(spec.nchannels));
         return {};
@@ -149,23 +152,23 @@ Status read_photo(const ImageInput& photo, const Options& options, const ImageSi
 
 Expected<Image> unprocess(const ImageInput& photo, const ReferenceInput& reference, const Options& options)
 {
-    return image_of([&](const ImageSink& sink) { return unprocess(photo, reference, options, sink); });
+    return image_of(photo, [&](const ImageSink& sink) { return unprocess(photo, reference, options, sink); });
 }
 Expected<Image> process(const ImageInput& raw, const Options& options)
 {
-    return image_of([&](const ImageSink& sink) { return process(raw, options, sink); });
+    return image_of(raw, [&](const ImageSink& sink) { return process(raw, options, sink); });
 }
 Expected<Image> develop(const ImageInput& raw, const Options& options)
 {
-    return image_of([&](const ImageSink& sink) { return develop(raw, options, sink); });
+    return image_of(raw, [&](const ImageSink& sink) { return develop(raw, options, sink); });
 }
 Expected<Image> sense(const ImageInput& raw, const Options& options)
 {
-    return image_of([&](const ImageSink& sink) { return sense(raw, options, sink); });
+    return image_of(raw, [&](const ImageSink& sink) { return sense(raw, options, sink); });
 }
 Expected<Image> read_photo(const ImageInput& photo, const Options& options)
 {
-    return image_of([&](const ImageSink& sink) { return read_photo(photo, options, sink); });
+    return image_of(photo, [&](const ImageSink& sink) { return read_photo(photo, options, sink); });
 }
 
 } // namespace srisp
