@@ -141,8 +141,8 @@ Status check_jpeg(const std::string& path)
     // Entropy coding by arithmetic needs next to no bits for what is as expected.
     if (const Status size = check(frame->arithmetic ? "" : "jpeg",
                                   { std::uint64_t(frame->width), std::uint64_t(frame->height), frame->channels,
-                                     frame->progressive || frame->scans > 1 },
-                                   file->size());
+                                    frame->progressive || frame->scans > 1 },
+                                  file->size());
         !size)
         return size;
     return check_scans(*frame);

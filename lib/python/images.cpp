@@ -7,7 +7,6 @@
 #include <srisp/srisp.h>
 
 #include "arrays.h"
-#include "container/image_memory.h"
 #include "interruption.h"
 #include "loaded_reference.h"
 
@@ -39,9 +38,8 @@ template<class Run> py::tuple computed(const Run& run)
     std::size_t row = 0;
     Interruption interruption;
     ImageSink sink;
+    sink.holds_all = true;
     sink.begin = [&](const OIIO::ImageSpec& spec) -> Status {
-        if (const Status fits = check_memory(spec.image_pixels(), spec.nchannels); !fits)
-            return Error{ "the result " + fits.error().message };
         const py::gil_scoped_acquire lock;
         metadata.spec = spec;
         row = std::size_t(spec.width) * std::size_t(spec.nchannels);

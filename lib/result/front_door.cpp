@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "base/guarded.h"
-#include "container/image_memory.h"
 #include "recipe/recipe.h"
 #include "result/computed_image.h"
+#include "result/image_sink.h"
 #include "result/kept_results.h"
 #include "result/photo_image.h"
 #include "result/recipe_source.h"
@@ -43,6 +43,7 @@ Expected<std::unique_ptr<ComputedImage>> open_image(const Recipe& recipe, const 
 
 Status pass_result(Recipe recipe, const MemoryImage* memory, const ImageSink& sink)
 {
+    const std::string where = "photo '" + (memory ? recipe.name : recipe.source) + "'";
     recipe.cancelled = sink.cancelled;
     const auto result = open_image(recipe, memory);
     if (!result)
@@ -51,7 +52,7 @@ Status pass_result(Recipe recipe, const MemoryImage* memory, const ImageSink& si
     if (!found)
         return found.error();
     const OIIO::ImageSpec spec = **found;
-    if (const Status begun = sink.begin(spec); !begun)
+    if (const Status begun = begin_image(sink, spec, where); !begun)
         return begun;
     const std::size_t row = std::size_t(spec.width) * std::size_t(spec.nchannels);
     const int step = band_rows(spec);
@@ -68,15 +69,14 @@ Status pass_result(Recipe recipe, const MemoryImage* memory, const ImageSink& si
     return {};
 }
 
-/// A whole image of what `pass` gives to a sink. `input`: what it is made of.
-template<class Pass> Expected<Image> image_of(const ImageInput& input, const Pass& pass)
+/// A whole image of what `pass` gives to a sink.
+template<class Pass> Expected<Image> image_of(const Pass& pass)
 {
     OIIO::ImageSpec spec;
     std::vector<float> pixels;
     ImageSink sink;
+    sink.holds_all = true;
     sink.begin = [&](const OIIO::ImageSpec& known) -> Status {
-        if (const Status fits = check_memory(known.image_pixels(), known.nchannels); !fits)
-            return Error{ "image made of '" + input.name() + "' " + fits.error().message };
         spec = known;
         pixels.reserve(spec.image_pixels() * std::size_t(spec.nchannels));
         return {};
@@ -152,23 +152,23 @@ Status read_photo(const ImageInput& photo, const Options& options, const ImageSi
 
 Expected<Image> unprocess(const ImageInput& photo, const ReferenceInput& reference, const Options& options)
 {
-    return image_of(photo, [&](const ImageSink& sink) { return unprocess(photo, reference, options, sink); });
+    return image_of([&](const ImageSink& sink) { return unprocess(photo, reference, options, sink); });
 }
 Expected<Image> process(const ImageInput& raw, const Options& options)
 {
-    return image_of(raw, [&](const ImageSink& sink) { return process(raw, options, sink); });
+    return image_of([&](const ImageSink& sink) { return process(raw, options, sink); });
 }
 Expected<Image> develop(const ImageInput& raw, const Options& options)
 {
-    return image_of(raw, [&](const ImageSink& sink) { return develop(raw, options, sink); });
+    return image_of([&](const ImageSink& sink) { return develop(raw, options, sink); });
 }
 Expected<Image> sense(const ImageInput& raw, const Options& options)
 {
-    return image_of(raw, [&](const ImageSink& sink) { return sense(raw, options, sink); });
+    return image_of([&](const ImageSink& sink) { return sense(raw, options, sink); });
 }
 Expected<Image> read_photo(const ImageInput& photo, const Options& options)
 {
-    return image_of(photo, [&](const ImageSink& sink) { return read_photo(photo, options, sink); });
+    return image_of([&](const ImageSink& sink) { return read_photo(photo, options, sink); });
 }
 
 } // namespace srisp

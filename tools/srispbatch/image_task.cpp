@@ -39,7 +39,7 @@ Expected<OIIO::ImageSpec> picture_of(const std::string& photo, const Options& op
     return spec ? Expected<OIIO::ImageSpec>(*spec) : Error{ (*source)->name() + ": has no picture" };
 }
 
-/// Waits for the memory that making an image takes at most. Errors: the photo's own; it takes more than it may.
+/// Waits for the memory that making an image takes at most. Errors: the photo's own.
 Status ask_for_memory(const std::string& photo, const Options& options, const AskForMemory& ask)
 {
     const auto spec = picture_of(photo, options);
@@ -48,8 +48,6 @@ Status ask_for_memory(const std::string& photo, const Options& options, const As
     const bool resized = !options.resize.empty() || !options.crop.empty();
     const std::uint64_t pixels = std::uint64_t(spec->image_pixels());
     const int channels = std::max(spec->nchannels, 3);
-    if (const Status fits = check_memory(pixels, channels); !fits && !resized) // what is resized asks for itself
-        return Error{ "photo '" + photo + "': " + fits.error().message };
     ask(image_memory(resized ? 2 * pixels : pixels, channels)); // and floats of the whole
     return {};
 }
@@ -65,6 +63,7 @@ Expected<Encoded> encode_npy(const BatchTask& task, const Options& image, Output
     Encoded made;
     std::optional<NpyEncoder> encoder;
     ImageSink sink;
+    sink.holds_all = true;
     sink.begin = [&](const OIIO::ImageSpec& spec) -> Status {
         made.spec = spec;
         encoder.emplace(spec, depth);
@@ -93,6 +92,7 @@ Expected<Encoded> encode_image(const BatchTask& task, const Options& image, cons
     Encoded made;
     bool by_writer = false; // an error is the writer's, not the photo's
     ImageSink sink;
+    sink.holds_all = true;
     sink.begin = [&](const OIIO::ImageSpec& spec) {
         made.spec = spec;
         const Status begun = encoder->begin(spec, kStored[int(options.depth)], options.compression);
