@@ -35,6 +35,10 @@ Status check_exr_header(const std::string& path)
     if (!file)
         return file.error();
     constexpr std::size_t kMostAttributes = 1 << 16;
+    constexpr unsigned char kManyParts = 0x10; // in the second byte of the version
+    unsigned char start[kStart] = {};
+    if (file->size() < kStart || !read_bytes(*file, start, 0, kStart))
+        return {};
     std::size_t at = kStart;
     for (std::size_t i = 0; i < kMostAttributes; ++i) {
         char bytes[kHead];
@@ -45,9 +49,10 @@ Status check_exr_header(const std::string& path)
         std::string name, type;
         if (!take_text(next, bytes + known, name))
             return {};
-        if (name.empty()) { // the end of a part's header; two of them end the last one's
-            if (++at >= file->size() || known < 2 || bytes[1] == '\0')
+        if (name.empty()) { // the end of a part's header; of the last one's there are two
+            if (!(start[5] & kManyParts) || known < 2 || bytes[1] == '\0')
                 return {};
+            ++at;
             continue;
         }
         if (!take_text(next, bytes + known, type) || bytes + known - next < 4)
