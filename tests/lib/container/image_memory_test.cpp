@@ -114,3 +114,26 @@ TEST_CASE("an EXR's attribute that says to be longer than the file is refused")
         }());
     CHECK(opening(folder.path("many.exr")) == "photo: is damaged: has more than 65536 attributes");
 }
+
+TEST_CASE("an EXR of several parts is read, and its last part's attributes are looked at, too")
+{
+    const ScratchFolder folder;
+    const std::string path = folder.path("parts.exr");
+    OIIO::ImageSpec spec(16, 12, 3, OIIO::TypeHalf);
+    spec.attribute("compression", "none");
+    spec.attribute("note", "what only the last part says");
+    OIIO::ImageSpec specs[] = { OIIO::ImageSpec(16, 12, 3, OIIO::TypeHalf), spec };
+    auto output = OIIO::ImageOutput::create(path);
+    REQUIRE((output && output->open(path, 2, specs)));
+    REQUIRE(output->write_image(OIIO::TypeFloat, made_pixels(3).data()));
+    REQUIRE(output->open(path, spec, OIIO::ImageOutput::AppendSubimage));
+    REQUIRE(output->write_image(OIIO::TypeFloat, made_pixels(3).data()));
+    REQUIRE(output->close());
+    CHECK(opening(path) == "");
+    std::string exr = bytes_of(path);
+    const std::string mark("note\0string\0", 12);
+    const std::size_t at = exr.find(mark);
+    REQUIRE(at != std::string::npos);
+    write_bytes(path, exr.replace(at + mark.size(), 4, little_endian(0x7fffffff)));
+    CHECK(opening(path).find("its attribute 'note' says that it has 2147483647 bytes") != std::string::npos);
+}
