@@ -12,6 +12,7 @@
 #include "base/output_file.h"
 #include "base/shown_text.h"
 #include "container/image_limits.h"
+#include "container/image_memory.h"
 #include "hand_over.h"
 #include "open_name.h"
 #include "recipe/frame_pattern.h"
@@ -100,6 +101,8 @@ Status SrispOutput::begin_level(const std::string& name, const OIIO::ImageSpec& 
         return Error{ name + ": a volume cannot be unprocessed" };
     if (const Status size = check_size(spec); !size)
         return Error{ name + ": cannot be unprocessed: it " + size.error().message };
+    if (const Status fits = check_memory(spec.image_pixels(), spec.nchannels); !fits)
+        return Error{ name + ": cannot be unprocessed: it " + fits.error().message };
     if (mode == Create) {
         m_slot.reset();
         if (Status begun = begin(name); !begun)

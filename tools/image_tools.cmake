@@ -45,11 +45,11 @@ srisp_image_tool(srispbake srisp_base srisp_photo srisp_ocio_static)
 target_include_directories(srispbake_parts PRIVATE ${PROJECT_SOURCE_DIR}) # parts of ocio, by their path
 srisp_man_page(srispbake --help)
 
-srisp_image_tool(srispbatch srisp_base srisp_recipe srisp_reference srisp_result)
+srisp_image_tool(srispbatch srisp_base srisp_recipe srisp_container srisp_photo srisp_reference srisp_result)
 target_link_libraries(srispbatch_parts PUBLIC srisp_static) # its public headers
 srisp_man_page(srispbatch --help)
 
-srisp_image_tool(srispeval srisp_base srisp_camera srisp_recipe srisp_thumbnail srisp_reference srisp_pack
+srisp_image_tool(srispeval srisp_base srisp_camera srisp_recipe srisp_thumbnail srisp_container srisp_reference srisp_pack
     srisp_rendering srisp_result)
 target_link_libraries(srispeval_parts PUBLIC srisp_static) # its public headers
 target_include_directories(srispeval_parts PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/srispeval)

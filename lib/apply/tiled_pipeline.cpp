@@ -65,6 +65,8 @@ void TiledPipeline::run_tile(ToneMapRunner& runner, const Job& job, Roi tile) co
         gather(source.pixels.pixel(x0 - source.x, y - source.y), source.pixels.x_stride, x1 - x0, row);
         if (m_direction == Direction::forward)
             before_tone_map(m_blocks, row, row, x1 - x0);
+        else // what is no number must not reach its neighbours
+            clamp01(row, row, std::size_t(x1 - x0));
     };
     const auto store = [&](int y, Planes row) {
         if (m_direction == Direction::reverse)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/input_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -33,11 +34,19 @@ Expected<std::string> read_text_file(const std::string& path, std::size_t most)
     const auto file = RegularFile::open(path);
     if (!file)
         return failed(file.error().message);
-    std::string text(most + 1, '\0');
-    const long long count = file->read(text.data(), 0, text.size());
-    if (count < 0)
-        return failed(std::strerror(errno));
-    text.resize(std::size_t(count));
+    if (file->size() > most)
+        return failed("has more than " + std::to_string(most) + " bytes");
+    // Room for one byte more than there are; files of /proc say that they have none.
+    constexpr std::size_t kLeastRoom = 4096;
+    std::string text(std::min(std::max(file->size(), kLeastRoom), most) + 1, '\0');
+    for (std::size_t got = 0; got < text.size();) {
+        const long long count = file->read(text.data() + got, got, text.size() - got);
+        if (count < 0)
+            return failed(std::strerror(errno));
+        got += std::size_t(count);
+        const bool more = got == text.size() && got <= most;
+        text.resize(more ? std::min(2 * got, most) + 1 : got);
+    }
     if (text.size() > most)
         return failed("has more than " + std::to_string(most) + " bytes");
     return text;

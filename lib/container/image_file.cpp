@@ -14,6 +14,7 @@
 #include "color/color_encoding.h"
 #include "container/file_description.h"
 #include "container/image_limits.h"
+#include "container/image_memory.h"
 #include "container/own_dng_input.h"
 #include "container/reader_name.h"
 #include "container/size_in_header.h"
@@ -275,6 +276,8 @@ Status ImageFile::check_spec(const OIIO::ImageSpec& spec) const
 {
     if (Status size = check_size(spec); !size)
         return size;
+    if (Status fits = check_reading_memory(format_name(), spec); !fits)
+        return fits;
     std::error_code no_file; // but a name that its reader understands
     const std::uintmax_t bytes = std::filesystem::file_size(m_path, no_file);
     if (no_file)

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <string>
 
+#include "base/shown_text.h"
+
 namespace srisp {
 
 namespace {
@@ -94,27 +96,33 @@ Status check_tiles(const OIIO::ImageSpec& spec)
     return {};
 }
 
-} // namespace
-
-std::uint64_t most_pixels()
+/// In millions.
+Expected<std::uint64_t> most_megapixels()
 {
-    std::uint64_t megapixels = kMostMegapixels;
-    if (const char* const text = std::getenv("SRISP_MAX_MEGAPIXELS")) {
-        std::uint64_t number = 0;
-        const char* const end = text + std::strlen(text);
-        if (std::from_chars(text, end, number).ptr == end && number > 0)
-            megapixels = std::min<std::uint64_t>(number, kMillion);
-    }
-    return megapixels * kMillion;
+    const char* const text = std::getenv("SRISP_MAX_MEGAPIXELS");
+    if (!text || !*text)
+        return kMostMegapixels;
+    std::uint64_t number = 0;
+    const char* const end = text + std::strlen(text);
+    const auto [stop, failed] = std::from_chars(text, end, number);
+    if (stop != end || failed != std::errc() || number < 1 || number > kMillion)
+        return Error{ "cannot be read: SRISP_MAX_MEGAPIXELS in the environment is '" + shown_text(text) +
+                      "'; a whole number from 1 to 1000000 is possible" };
+    return number;
 }
+
+} // namespace
 
 Status check_sides(std::uint64_t width, std::uint64_t height)
 {
     const std::string size = "has " + std::to_string(width) + " x " + std::to_string(height) + " pixels";
     if (std::min(width, height) < 1 || std::max(width, height) > kLargestSide)
         return Error{ size + "; from 1 to " + std::to_string(kLargestSide) + " a side are possible" };
-    if (width * height > most_pixels())
-        return Error{ size + ", which is more than the limit of " + std::to_string(most_pixels() / kMillion) +
+    const auto most = most_megapixels();
+    if (!most)
+        return most.error();
+    if (width * height > *most * kMillion)
+        return Error{ size + ", which is more than the limit of " + std::to_string(*most) +
                       " million; SRISP_MAX_MEGAPIXELS in the environment sets another" };
     return {};
 }
@@ -126,11 +134,12 @@ Status check_size(const OIIO::ImageSpec& spec)
                       std::to_string(kLargestSide) + " a side are possible" };
     if (Status sides = check_sides(std::uint64_t(spec.width), std::uint64_t(spec.height)); !sides)
         return sides;
-    if (spec.depth < 1 ||
-        std::uint64_t(spec.depth) > most_pixels() / std::uint64_t(spec.width) / std::uint64_t(spec.height))
+    if (spec.depth < 1)
+        return Error{ "has a depth of " + std::to_string(spec.depth) + " planes; 1 and more are possible" };
+    const std::uint64_t plane = std::uint64_t(spec.width) * std::uint64_t(spec.height);
+    if (const auto most = most_megapixels(); most && std::uint64_t(spec.depth) > *most * kMillion / plane)
         return Error{ "is a volume of " + size_text(spec.width, spec.height) + " x " + std::to_string(spec.depth) +
-                      " pixels, which is more than the limit of " + std::to_string(most_pixels() / kMillion) +
-                      " million" };
+                      " pixels, which is more than the limit of " + std::to_string(*most) + " million" };
     if (spec.nchannels < 1 || spec.nchannels > kMostChannels)
         return limit_error("a number of channels of", spec.nchannels,
                            "from 1 to " + std::to_string(kMostChannels) + " are possible");

@@ -15,10 +15,8 @@ namespace srisp {
 constexpr int kLargestSide = 1 << 20;
 constexpr int kMostChannels = 1024;
 
-/// From the environment (SRISP_MAX_MEGAPIXELS), or 2,000 million.
-std::uint64_t most_pixels();
-
-/// Width and height, before a spec is there. Errors: "has 0 x 0 pixels; …".
+/// Width and height, before a spec is there. Errors: "has 0 x 0 pixels; …"; more than 2,000 million, or the million
+/// times that SRISP_MAX_MEGAPIXELS in the environment says; that says something else.
 Status check_sides(std::uint64_t width, std::uint64_t height);
 
 /// Sizes of image, tiles and windows; the same errors.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "container/size_in_header.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,7 +12,9 @@
 #include <libheif/heif.h>
 
 #include "base/file_bytes.h"
+#include "container/exr_header.h"
 #include "container/image_limits.h"
+#include "container/image_memory.h"
 #include "jpeg/jpeg_segments.h"
 
 namespace srisp {
@@ -22,6 +26,8 @@ constexpr std::size_t kLargestFile = std::size_t(4) << 30;
 
 struct HeaderSize {
     std::uint64_t width, height;
+    int channels = 3;
+    bool held = true; ///< as a whole by the reader
 };
 
 std::uint64_t number(std::string_view bytes, std::size_t at, int count, bool big_endian)
@@ -38,7 +44,28 @@ std::optional<HeaderSize> gif_size(std::string_view head)
 {
     if (head.size() < 10)
         return {};
-    return HeaderSize{ number(head, 6, 2, false), number(head, 8, 2, false) };
+    return HeaderSize{ number(head, 6, 2, false), number(head, 8, 2, false), 4 };
+}
+
+/// Runs are decoded when a file is opened.
+std::optional<HeaderSize> bmp_size(std::string_view head)
+{
+    constexpr std::uint64_t kRuns8 = 1, kRuns4 = 2;
+    if (head.size() < 34 || number(head, 14, 4, false) < 40)
+        return {};
+    const auto width = std::int32_t(number(head, 18, 4, false)), height = std::int32_t(number(head, 22, 4, false));
+    const std::uint64_t compression = number(head, 30, 4, false);
+    if (compression != kRuns8 && compression != kRuns4)
+        return {};
+    return HeaderSize{ std::uint64_t(std::abs(std::int64_t(width))), std::uint64_t(std::abs(std::int64_t(height))) };
+}
+
+std::optional<HeaderSize> png_size(std::string_view head)
+{
+    constexpr int kChannels[] = { 1, 1, 3, 3, 2, 2, 4, 4 }; // palette and colour, alpha, both
+    if (head.size() < 29 || head[28] == 0)                  // not interlaced: read by rows
+        return {};
+    return HeaderSize{ number(head, 16, 4, true), number(head, 20, 4, true), kChannels[head[25] & 7] };
 }
 
 /// The codestream's own size (the marker SIZ); else the box that repeats it.
@@ -46,14 +73,15 @@ std::optional<HeaderSize> jpeg2000_size(std::string_view head)
 {
     using namespace std::string_view_literals;
     constexpr std::string_view kStart = "\xff\x4f\xff\x51"sv;
-    if (const std::size_t at = head.find(kStart); at != head.npos && at + 24 <= head.size()) {
+    if (const std::size_t at = head.find(kStart); at != head.npos && at + 42 <= head.size()) {
         const std::uint64_t right = number(head, at + 8, 4, true), bottom = number(head, at + 12, 4, true);
         const std::uint64_t left = number(head, at + 16, 4, true), top = number(head, at + 20, 4, true);
         if (left < right && top < bottom)
-            return HeaderSize{ right - left, bottom - top };
+            return HeaderSize{ right - left, bottom - top, int(number(head, at + 40, 2, true)) };
     }
-    if (const std::size_t at = head.find("ihdr"); at != head.npos && at + 12 <= head.size())
-        return HeaderSize{ number(head, at + 8, 4, true), number(head, at + 4, 4, true) };
+    if (const std::size_t at = head.find("ihdr"); at != head.npos && at + 14 <= head.size())
+        return HeaderSize{ number(head, at + 8, 4, true), number(head, at + 4, 4, true),
+                           int(number(head, at + 12, 2, true)) };
     return {};
 }
 
@@ -68,8 +96,17 @@ std::optional<HeaderSize> heif_size(const std::string& path)
     const std::unique_ptr<heif_image_handle, decltype(&heif_image_handle_release)> handle(found,
                                                                                           heif_image_handle_release);
     return HeaderSize{ std::uint64_t(heif_image_handle_get_width(found)),
-                       std::uint64_t(heif_image_handle_get_height(found)) };
+                       std::uint64_t(heif_image_handle_get_height(found)), 4 };
 }
+
+/// What the first bytes of a file say.
+struct SizeOf {
+    const char* reader;
+    std::optional<HeaderSize> (*size)(std::string_view head);
+};
+constexpr SizeOf kSizes[] = {
+    { "bmp", bmp_size }, { "gif", gif_size }, { "jpeg2000", jpeg2000_size }, { "png", png_size }
+};
 
 Status check(const std::string& reader, const HeaderSize& size, std::uint64_t file_bytes)
 {
@@ -77,7 +114,9 @@ Status check(const std::string& reader, const HeaderSize& size, std::uint64_t fi
         return {};
     if (Status claim = check_claim(reader.c_str(), size.width, size.height, file_bytes); !claim)
         return claim;
-    return check_sides(size.width, size.height);
+    if (Status sides = check_sides(size.width, size.height); !sides || !size.held)
+        return sides;
+    return check_memory(size.width * size.height, std::max(size.channels, 1));
 }
 
 /// Photos have some ten scans. Empty ones are a few bytes each, and cost as much as full ones.
@@ -101,7 +140,9 @@ Status check_jpeg(const std::string& path)
         return {};
     // Entropy coding by arithmetic needs next to no bits for what is as expected.
     if (const Status size = check(frame->arithmetic ? "" : "jpeg",
-                                  { std::uint64_t(frame->width), std::uint64_t(frame->height) }, file->size());
+                                  { std::uint64_t(frame->width), std::uint64_t(frame->height), frame->channels,
+                                    frame->progressive || frame->scans > 1 },
+                                  file->size());
         !size)
         return size;
     return check_scans(*frame);
@@ -113,14 +154,18 @@ Status check_header(const std::string& reader, const std::string& path)
 {
     if (reader == "jpeg")
         return check_jpeg(path);
+    if (reader == "openexr")
+        return check_exr_header(path);
     std::optional<HeaderSize> size;
     if (reader == "heif") {
         size = heif_size(path);
-    } else if (reader == "gif" || reader == "jpeg2000") {
+    } else if (const auto found = std::find_if(std::begin(kSizes), std::end(kSizes),
+                                               [&](const SizeOf& known) { return reader == known.reader; });
+               found != std::end(kSizes)) {
         const auto head = read_head(path, kHeadBytes);
         if (!head)
             return head.error();
-        size = reader == "gif" ? gif_size(*head) : jpeg2000_size(*head);
+        size = found->size(*head);
     }
     std::error_code ignored;
     return size ? check(reader, *size, std::filesystem::file_size(path, ignored)) : Status();

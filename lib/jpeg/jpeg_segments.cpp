@@ -161,11 +161,11 @@ std::optional<JpegFrame> find_jpeg_frame(std::string_view jpeg)
         const int code = walk.code();
         // SOF0 … SOF15 are all of this row but for DHT, JPG and DAC.
         const bool starts_frame = code >= 0xc0 && code <= 0xcf && code != 0xc4 && code != 0xc8 && code != 0xcc;
-        if (starts_frame && !frame && walk.content().size() >= 5) {
+        if (starts_frame && !frame && walk.content().size() >= 6) {
             const auto side = [&](std::size_t at) {
                 return byte_at(walk.content(), at) << 8 | byte_at(walk.content(), at + 1);
             };
-            frame = JpegFrame{ side(3), side(1), code > 0xc8, 0 };
+            frame = JpegFrame{ side(3), side(1), byte_at(walk.content(), 5), code > 0xc8, (code & 3) == 2, 0 };
         }
         if (code == kStartOfScan && frame)
             ++frame->scans;

@@ -14,8 +14,9 @@ std::optional<std::string_view> find_app_segment(std::string_view jpeg, int n, s
 
 /// What a JPEG says of its frame, and how many scans follow.
 struct JpegFrame {
-    int width = 0, height = 0;
-    bool arithmetic = false; ///< coded so, not by Huffman's codes
+    int width = 0, height = 0, channels = 0;
+    bool arithmetic = false;  ///< coded so, not by Huffman's codes
+    bool progressive = false; ///< each scan adds to what the ones before it said
     std::size_t scans = 0;
 };
 /// None: no frame is found. As decoders do, passes over bytes between segments that belong to none.

@@ -25,6 +25,7 @@ using D = hn::ScalableTag<float>;
 using DI = hn::RebindToSigned<D>;
 using V = hn::Vec<D>;
 
+/// NaN becomes 0: of a number and none Max gives the second on x86.
 HWY_INLINE V clamped01(V v)
 {
     const D d;

@@ -29,44 +29,24 @@ HWY_INLINE void compute_tones(const PixelToneMap& tone_map, const BlockRgb& v, B
         hn::Store(clamped01(hn::Add(hn::Load(d, v.values + i), hn::Load(d, out.values + i))), d, out.values + i);
 }
 
-/// Which pixels of a vector are inside the unit cube; those that are NaN are not.
-HWY_INLINE hn::Mask<D> inside(BlockRgb& v, int x)
-{
-    const D d;
-    auto mask = hn::Eq(hn::Zero(d), hn::Zero(d));
-    for (int c = 0; c < 3; ++c) {
-        const V value = hn::Load(d, v.at(c, x));
-        mask = hn::And(mask, hn::And(hn::Ge(value, hn::Zero(d)), hn::Le(value, hn::Set(d, 1.0f))));
-    }
-    return mask;
-}
-
 /// The same by a table.
-HWY_INLINE void look_up_tones(const PixelToneMap& tone_map, const ToneTable& table, BlockRgb& v, BlockRgb& out)
+HWY_INLINE void look_up_tones(const ToneTable& table, BlockRgb& v, BlockRgb& out)
 {
     const D d;
     Tetrahedra<kPixelBlock> tetrahedra;
-    bool all_inside = true;
     for (int x = 0; x < kPixelBlock; x += kLanes) {
-        const auto mask = inside(v, x);
-        all_inside &= hn::AllTrue(d, mask);
         V rgb[3];
         for (int c = 0; c < 3; ++c)
-            rgb[c] = hn::IfThenElseZero(mask, hn::Load(d, v.at(c, x)));
+            rgb[c] = hn::Load(d, v.at(c, x));
         find_tetrahedra(rgb, x, tetrahedra);
     }
     HWY_ALIGN float found[ToneTable::kStride * kPixelBlock];
     interpolate(table.values(), tetrahedra, found);
-    if (!all_inside)
-        compute_tones(tone_map, v, out);
     for (int x = 0; x < kPixelBlock; x += kLanes) {
         V rgb[3], unused;
         hn::LoadInterleaved4(d, found + ToneTable::kStride * x, rgb[0], rgb[1], rgb[2], unused);
-        for (int c = 0; c < 3; ++c) {
-            const V value = clamped01(rgb[c]);
-            hn::Store(all_inside ? value : hn::IfThenElse(inside(v, x), value, hn::Load(d, out.at(c, x))), d,
-                      out.at(c, x));
-        }
+        for (int c = 0; c < 3; ++c)
+            hn::Store(clamped01(rgb[c]), d, out.at(c, x));
     }
 }
 
@@ -80,14 +60,14 @@ HWY_INLINE void run_block(const PixelPipeline& p, const ToneTable* table, const 
     for (int x = 0; x < kPixelBlock; x += kLanes) {
         V r, g, b;
         hn::LoadInterleaved3(d, in + 3 * x, r, g, b);
-        hn::Store(r, d, v.at(0, x));
-        hn::Store(g, d, v.at(1, x));
-        hn::Store(b, d, v.at(2, x));
+        hn::Store(kPass == Pass::reverse ? clamped01(r) : r, d, v.at(0, x)); // the other way clamps by itself
+        hn::Store(kPass == Pass::reverse ? clamped01(g) : g, d, v.at(1, x));
+        hn::Store(kPass == Pass::reverse ? clamped01(b) : b, d, v.at(2, x));
     }
     if (kPass == Pass::forward)
         run_before_tone_map(p.blocks, v.planes(), v.planes(), kPixelBlock);
     if (table)
-        look_up_tones(p.tone_map, *table, v, tones);
+        look_up_tones(*table, v, tones);
     else
         compute_tones(p.tone_map, v, tones);
     if (kPass == Pass::reverse)

@@ -6,6 +6,8 @@
 #include <map>
 #include <mutex>
 
+#include "container/image_memory.h"
+
 namespace srisp {
 
 namespace {
@@ -30,7 +32,7 @@ Offers& offers()
 std::shared_ptr<DecodedRows> DecodedRows::create(std::size_t row_bytes, int rows)
 {
     const std::size_t bytes = row_bytes * std::size_t(rows);
-    if (bytes > kMostBytes)
+    if (const auto most = most_image_memory(); bytes > kMostBytes || !most || bytes > *most)
         return nullptr;
     auto pages = PageMemory::create(bytes);
     if (!pages)

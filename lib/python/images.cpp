@@ -38,6 +38,7 @@ template<class Run> py::tuple computed(const Run& run)
     std::size_t row = 0;
     Interruption interruption;
     ImageSink sink;
+    sink.holds_all = true;
     sink.begin = [&](const OIIO::ImageSpec& spec) -> Status {
         const py::gil_scoped_acquire lock;
         metadata.spec = spec;

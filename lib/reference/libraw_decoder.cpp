@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "container/image_memory.h"
 #include "raw_file/libraw_traps.h"
 #include "reference/raw_stream.h"
 #include "reference/tiff_raw.h"
@@ -100,6 +101,9 @@ Status unpack(LibRaw& raw, RawStream& stream, const FileBytes& file, const DngDe
         return Error{ unopened(code, file, dng) };
     if (Status status = check_sensor(raw); !status && raw.imgdata.idata.dng_version == 0)
         return status;
+    const std::size_t pixels = std::size_t(raw.imgdata.sizes.raw_width) * raw.imgdata.sizes.raw_height;
+    if (Status fits = check_memory(pixels, 1); !fits)
+        return fits;
     stream.end_is_error();
     const int code = raw.unpack();
     if (code == LIBRAW_IO_ERROR || (code != LIBRAW_SUCCESS && stream.eof()))
@@ -109,7 +113,6 @@ Status unpack(LibRaw& raw, RawStream& stream, const FileBytes& file, const DngDe
         return Error{ std::string("LibRaw can't decode it: ") + LibRaw::strerror(code) };
     if (raw.error_count() > 0)
         return Error{ "damaged image data (LibRaw met " + std::to_string(raw.error_count()) + " decoding errors)" };
-    const std::size_t pixels = std::size_t(raw.imgdata.sizes.raw_width) * raw.imgdata.sizes.raw_height;
     if (stream.consumed() < pixels / kMostPixelsPerByte)
         return Error{ "damaged image data (LibRaw read " + std::to_string(stream.consumed()) + " bytes for " +
                       std::to_string(pixels) + " pixels)" };

@@ -15,6 +15,8 @@
 #include "base/shown_reason.h"
 #include "base/shown_text.h"
 #include "container/image_limits.h"
+#include "container/image_memory.h"
+#include "container/size_in_header.h"
 #include "record/record.h"
 
 namespace srisp {
@@ -173,11 +175,15 @@ Expected<LinearReference> read_linear_reference(const std::string& path, const s
     const auto input = OIIO::ImageInput::create(format);
     if (!input)
         return Error{ "OpenImageIO has no reader for " + format };
+    if (Status header = check_header(format, path); !header)
+        return header.error();
     OIIO::ImageSpec spec;
     if (!input->open(path, spec))
         return Error{ "can't be opened as " + format + ": " + shown_reason(input->geterror()) };
     if (Status status = check_size(spec); !status)
         return status.error();
+    if (Status fits = check_reading_memory(format.c_str(), spec); !fits)
+        return fits.error();
     std::error_code unknown;
     const std::uintmax_t bytes = std::filesystem::file_size(path, unknown);
     if (Status status =

@@ -6,6 +6,7 @@
 #include "base/guarded.h"
 #include "recipe/recipe.h"
 #include "result/computed_image.h"
+#include "result/image_sink.h"
 #include "result/kept_results.h"
 #include "result/photo_image.h"
 #include "result/recipe_source.h"
@@ -42,6 +43,7 @@ Expected<std::unique_ptr<ComputedImage>> open_image(const Recipe& recipe, const 
 
 Status pass_result(Recipe recipe, const MemoryImage* memory, const ImageSink& sink)
 {
+    const std::string where = "photo '" + (memory ? recipe.name : recipe.source) + "'";
     recipe.cancelled = sink.cancelled;
     const auto result = open_image(recipe, memory);
     if (!result)
@@ -50,7 +52,7 @@ Status pass_result(Recipe recipe, const MemoryImage* memory, const ImageSink& si
     if (!found)
         return found.error();
     const OIIO::ImageSpec spec = **found;
-    if (const Status begun = sink.begin(spec); !begun)
+    if (const Status begun = begin_image(sink, spec, where); !begun)
         return begun;
     const std::size_t row = std::size_t(spec.width) * std::size_t(spec.nchannels);
     const int step = band_rows(spec);
@@ -73,6 +75,7 @@ template<class Pass> Expected<Image> image_of(const Pass& pass)
     OIIO::ImageSpec spec;
     std::vector<float> pixels;
     ImageSink sink;
+    sink.holds_all = true;
     sink.begin = [&](const OIIO::ImageSpec& known) -> Status {
         spec = known;
         pixels.reserve(spec.image_pixels() * std::size_t(spec.nchannels));

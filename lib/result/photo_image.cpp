@@ -8,6 +8,7 @@
 #include "photo/photo_converter.h"
 #include "photo/photo_reader.h"
 #include "record/record.h"
+#include "result/image_sink.h"
 
 namespace srisp {
 
@@ -33,7 +34,7 @@ Status pass_photo(PixelSource& source, const Options& options, const ImageSink& 
     if (!converter)
         return converter.error();
     const OIIO::ImageSpec spec = spec_of(*converter);
-    if (const Status begun = sink.begin(spec); !begun)
+    if (const Status begun = begin_image(sink, spec, source.name()); !begun)
         return begun;
     const std::size_t row = std::size_t(spec.width) * std::size_t(spec.nchannels);
     PhotoReader reader(source, 0, 0, *stored, *converter, options.threads);

@@ -9,6 +9,8 @@
 #include <OpenImageIO/imagebufalgo.h>
 
 #include "base/hashes.h"
+#include "container/image_limits.h"
+#include "container/image_memory.h"
 #include "recipe/photo_size.h"
 
 namespace srisp {
@@ -51,6 +53,16 @@ void set_size(OIIO::ImageSpec& spec, int width, int height)
     spec.tile_width = spec.tile_height = 0;
 }
 
+/// The photo as codes and as floats, and what is made of it. `wanted`: 0 x 0 where the size stays.
+Status check_resizing(const OIIO::ImageSpec& spec, const PhotoSize& wanted)
+{
+    if (wanted.width > 0)
+        if (const Status sides = check_sides(std::uint64_t(wanted.width), std::uint64_t(wanted.height)); !sides)
+            return Error{ "resized it " + sides.error().message };
+    const std::uint64_t result = std::uint64_t(wanted.width) * std::uint64_t(wanted.height);
+    return check_memory(2 * std::uint64_t(spec.image_pixels()) + result, spec.nchannels);
+}
+
 } // namespace
 
 Expected<std::unique_ptr<PixelSource>> resized_source(std::unique_ptr<PixelSource> photo, const Recipe& recipe)
@@ -61,19 +73,24 @@ Expected<std::unique_ptr<PixelSource>> resized_source(std::unique_ptr<PixelSourc
     if (photo->gain_map())
         return Error{ photo->name() +
                       ": its gain map has the size of the whole photo; no resize, no crop with gainmap" };
-    OIIO::ImageSpec spec = *found, layout(spec.width, spec.height, spec.nchannels, OIIO::TypeFloat);
-    std::vector<float> pixels(spec.image_pixels() * std::size_t(spec.nchannels));
-    if (const Status read = photo->read_rows(0, 0, 0, spec.height, pixels.data()); !read)
-        return read.error();
-
+    OIIO::ImageSpec spec = *found;
     // What is asked for is upright; pixels lie as the camera was held.
     const bool turned = spec.get_int_attribute("Orientation", 1) > 4;
     const auto upright = [&](int width, int height) {
         return turned ? PhotoSize{ height, width } : PhotoSize{ width, height };
     };
     const PhotoSize stored{ spec.width, spec.height };
+    const PhotoSize wanted =
+        recipe.resize.empty() ? PhotoSize{} : resized(recipe.resize, upright(stored.width, stored.height));
+    if (const Status fits = check_resizing(spec, wanted); !fits)
+        return Error{ photo->name() + ": " + fits.error().message };
+
+    OIIO::ImageSpec layout(spec.width, spec.height, spec.nchannels, OIIO::TypeFloat);
+    std::vector<float> pixels(spec.image_pixels() * std::size_t(spec.nchannels));
+    if (const Status read = photo->read_rows(0, 0, 0, spec.height, pixels.data()); !read)
+        return read.error();
+
     if (!recipe.resize.empty()) {
-        const PhotoSize wanted = resized(recipe.resize, upright(stored.width, stored.height));
         const PhotoSize size = upright(wanted.width, wanted.height);
         const OIIO::ImageBuf whole(layout, pixels.data());
         OIIO::ImageBuf small;

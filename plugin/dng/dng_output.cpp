@@ -8,6 +8,7 @@
 #include "base/guarded.h"
 #include "base/shown_text.h"
 #include "container/image_limits.h"
+#include "container/image_memory.h"
 #include "dng/dng_check.h"
 #include "dng/dng_writer.h"
 #include "dng_xmp.h"
@@ -68,6 +69,8 @@ Status DngOutput::begin(const std::string& name, const OIIO::ImageSpec& spec)
         return error(size.error().message);
     if (const Status size = check_size(spec); !size)
         return error("cannot be written: it " + size.error().message);
+    if (const Status fits = check_memory(spec.image_pixels(), spec.nchannels); !fits)
+        return error("cannot be written: it " + fits.error().message);
     const auto settings = read_dng_settings(spec);
     if (!settings)
         return error(settings.error().message);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "failure.h"
+#include "image_limits_option.h"
 
 namespace srisp::tool {
 
@@ -14,6 +15,7 @@ void describe_common_options(CLI::App& app, CommonOptions& options)
     app.add_flag("-h,--help", options.help);
     app.add_flag("--version", options.version);
     app.add_option("--threads", options.threads)->check(CLI::Range(0, 1024));
+    describe_image_limits(app);
     app.add_flag("--json", options.json);
     app.add_flag("-q,--quiet", options.quiet);
 }

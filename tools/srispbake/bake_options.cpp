@@ -111,6 +111,7 @@ Options:
   --reference RAW     The RAW file to be matched
   --source PHOTO      The photo to choose for
   --allow-partial     Take a PHOTO that breaks off as far as it goes
+  --max-megapixels N  Refuse images of more than N million pixels; 2000
   --params JSON       Parameters as srisptool --srisp-params prints them,
                       edited or not, instead of choosing
   --model NAME        Name or path of a model that sees single pixels (kernel

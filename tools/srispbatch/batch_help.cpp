@@ -52,6 +52,7 @@ What is made:
 The run:
   --threads N         Photos at a time; 0: one for each processor; 0
   --memory GB         Images in memory at a time; a quarter of the machine's
+  --max-megapixels N  Refuse images of more than N million pixels; 2000
   --shard I/N         One part of N of the photos, I from 0; in a job array of
                       Slurm its task
   --no-isolate        Photos are decoded by this process, not by others, which

@@ -15,7 +15,9 @@
 #include "base/hashes.h"
 #include "base/json_text.h"
 #include "base/output_file.h"
+#include "container/image_memory.h"
 #include "npy_file.h"
+#include "photo/pixel_source.h"
 #include "reference/reference_cache.h"
 #include "result/file_encoder.h"
 #include "shot_parameters.h"
@@ -27,20 +29,27 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// What making an image takes at most, by its header; 0 where that cannot be read: it will fail.
-std::uint64_t memory_for(const std::string& photo, bool resized)
+/// A photo's picture by its header.
+Expected<OIIO::ImageSpec> picture_of(const std::string& photo, const Options& options)
 {
-    constexpr std::uint64_t kPixel = 24, kResizedPixel = 48; // bytes: codes and the result's file; floats of the whole
-    std::error_code ignored;
-    if (!fs::is_regular_file(photo, ignored))
-        return 0;
-    // A reader of films takes "pipe:0.mp4" for something else than a file.
-    const auto input = OIIO::ImageInput::open(fs::absolute(photo).string());
-    if (!input) {
-        OIIO::geterror();
-        return 0;
-    }
-    return std::uint64_t(input->spec().image_pixels()) * (resized ? kResizedPixel : kPixel);
+    const auto source = open_source(photo, "photo", reading_hints(options));
+    if (!source)
+        return source.error();
+    const auto spec = (*source)->find_level(0, 0);
+    return spec ? Expected<OIIO::ImageSpec>(*spec) : Error{ (*source)->name() + ": has no picture" };
+}
+
+/// Waits for the memory that making an image takes at most. Errors: the photo's own.
+Status ask_for_memory(const std::string& photo, const Options& options, const AskForMemory& ask)
+{
+    const auto spec = picture_of(photo, options);
+    if (!spec)
+        return spec.error();
+    const bool resized = !options.resize.empty() || !options.crop.empty();
+    const std::uint64_t pixels = std::uint64_t(spec->image_pixels());
+    const int channels = std::max(spec->nchannels, 3);
+    ask(image_memory(resized ? 2 * pixels : pixels, channels)); // and floats of the whole
+    return {};
 }
 
 /// A result as the bytes of its file, and what it says of itself.
@@ -54,6 +63,7 @@ Expected<Encoded> encode_npy(const BatchTask& task, const Options& image, Output
     Encoded made;
     std::optional<NpyEncoder> encoder;
     ImageSink sink;
+    sink.holds_all = true;
     sink.begin = [&](const OIIO::ImageSpec& spec) -> Status {
         made.spec = spec;
         encoder.emplace(spec, depth);
@@ -82,6 +92,7 @@ Expected<Encoded> encode_image(const BatchTask& task, const Options& image, cons
     Encoded made;
     bool by_writer = false; // an error is the writer's, not the photo's
     ImageSink sink;
+    sink.holds_all = true;
     sink.begin = [&](const OIIO::ImageSpec& spec) {
         made.spec = spec;
         const Status begun = encoder->begin(spec, kStored[int(options.depth)], options.compression);
@@ -164,7 +175,8 @@ void prepare_making(OutputFormat format, std::size_t most_references)
 Expected<ordered_json> run_task(const BatchTask& task, const std::string& path, const MakingOptions& options,
                                 const std::string& settings, bool may_replace, const AskForMemory& ask)
 {
-    ask(memory_for(task.photo.path, !options.image.resize.empty() || !options.image.crop.empty()));
+    if (const Status fits = ask_for_memory(task.photo.path, options.image, ask); !fits)
+        return fits.error();
     const auto start = std::chrono::steady_clock::now();
     const auto image_options = options_for(task, options);
     if (!image_options)

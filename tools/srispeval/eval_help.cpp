@@ -51,6 +51,7 @@ What is written:
 
   --threads N         Files at a time; 0 (without this): one for each processor
   --memory GB         What they may take; a quarter of the machine's
+  --max-megapixels N  Refuse images of more than N million pixels; 2000
   -q, --quiet         No progress
   -h, --help          This text
   --version           The version

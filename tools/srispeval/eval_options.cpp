@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "../common/failure.h"
+#include "../common/image_limits_option.h"
 #include "base/shown_text.h"
 #include "converter.h"
 #include "photo_rendering.h"
@@ -41,6 +42,7 @@ void describe_evaluation(CLI::App& app, EvalOptions& options)
     app.add_option("--seed", options.seed);
     app.add_option("--threads", options.threads)->check(CLI::Range(0, 1024));
     app.add_option("--memory", options.memory_gb)->check(CLI::Range(0.1, 1e6));
+    describe_image_limits(app);
     app.add_flag("--by-camera", options.by_camera);
     if (options.job == Job::half_split) {
         std::vector<std::string> names{ "all" };

@@ -5,6 +5,7 @@
 
 #include <OpenImageIO/strutil.h>
 
+#include "container/image_memory.h"
 #include "recipe/reference_pattern.h"
 
 namespace srisp::tool {
@@ -35,11 +36,14 @@ Pixels pixels_of_reference(const Reference& reference)
 Expected<RawPicture> load_raw_picture(const std::string& path, int longest, const AskForMemory& ask)
 {
     // LibRaw's samples, its demosaiced image of four 16-bit values, a copy in OpenImageIO, and bands of floats.
-    constexpr std::uint64_t kBytesPerPixel = 24;
+    constexpr int kChannels = 3;
     const auto file = load_reference_cached(path);
     if (!file)
         return file.error();
-    ask(std::uint64_t((*file)->facts.width) * std::uint64_t((*file)->facts.height) * kBytesPerPixel);
+    const std::uint64_t pixels = std::uint64_t((*file)->facts.width) * std::uint64_t((*file)->facts.height);
+    if (const Status fits = check_memory(pixels, kChannels); !fits)
+        return Error{ "reference '" + path + "': " + fits.error().message };
+    ask(image_memory(pixels, kChannels));
     return load_raw_picture(path, longest);
 }
 

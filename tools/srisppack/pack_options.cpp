@@ -59,6 +59,7 @@ Options:
   --strict           An image that cannot be read is an error
   --replace          Make PACK anew where there is one, and nothing else in its
                      folder; the old one stays until the new one is complete
+  --max-megapixels N Refuse images of more than N million pixels; 2000
   --threads N        0: one for each processor; 0
   --json             The summary on stdout as JSON
   -q, --quiet        No progress

@@ -151,6 +151,8 @@ const std::vector<SrispCommand>& srisp_commands()
         { "no-progress", nullptr, kNoDoor, Effect::configures, "", "", "No progress on the terminal" },
         { "allow-partial", nullptr, kNoDoor, Effect::configures, "", "",
           "Take photos that break off as far as they go, with a note, instead of an error" },
+        { "max-megapixels", "N", kNoDoor, Effect::configures, "", "",
+          "Refuse images of more than N million pixels; the same as SRISP_MAX_MEGAPIXELS" },
     };
     return commands;
 }

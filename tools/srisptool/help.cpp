@@ -61,6 +61,8 @@ Environment:
   SRISP_MAX_MEGAPIXELS
                     the most pixels that an image may have, in millions; default
                     2000
+  SRISP_MAX_MEMORY  the most memory that one image may take: 2G, or megabytes;
+                    default all that the machine has
   TMPDIR            where small hand-over files lie while it runs
 
 Exit codes: oiiotool's own; 1 where srisptool itself failed, 2 for wrong usage

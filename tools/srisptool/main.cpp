@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "../common/failure.h"
+#include "../common/image_limits_option.h"
 #include "command_line.h"
 #include "help.h"
 #include "output_depth.h"
@@ -15,6 +16,9 @@ using namespace srisp::tool;
 static int run(const std::string& program, const std::vector<std::string>& words)
 {
     const std::vector<Step> steps = parse_command_line(words);
+    for (const Step& step : steps)
+        if (step.is_named("max-megapixels"))
+            set_max_megapixels(step.words.back());
     if (contains(steps, "srisp-help")) {
         std::fputs(help_text().c_str(), stdout);
         return 0;

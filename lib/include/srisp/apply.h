@@ -43,9 +43,9 @@ public:
     int halo() const;
 
     /// Computes the region `roi` of the whole image. `source` must hold it and the halo around it as far as the whole
-    /// image goes. `target` is the image of `roi` alone. Values in [0,1] in and out. `target` may be the memory of
-    /// `source`. Same bits for any number of threads, any tiling and any region. Errors: sizes that do not fit;
-    /// cancelled.
+    /// image goes. `target` is the image of `roi` alone. Values in [0,1] out, whatever comes in: what is outside
+    /// counts as 0 or 1, NaN as 0. `target` may be the memory of `source`. Same bits for any number of threads, any
+    /// tiling and any region. Errors: sizes that do not fit; cancelled.
     Status run(const ImagePart& source, Roi roi, MutableImageView target, const ApplyOptions& options = {}) const;
 
     /// The whole image; `target` may be `source`.

@@ -66,6 +66,9 @@ private:
 struct ImageSink {
     std::function<Status(const OIIO::ImageSpec& spec)> begin;
     std::function<Status(const float* rows, int count)> rows;
+    /// What takes the rows keeps them all in memory: an error where that is more than one image may take
+    /// (SRISP_MAX_MEMORY).
+    bool holds_all = false;
     std::function<bool()> cancelled{}; ///< asked now and then by the calling thread; true ends it with an error
 };
 

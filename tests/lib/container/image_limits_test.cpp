@@ -85,9 +85,12 @@ TEST_CASE("the limit in megapixels is the user's")
     CHECK(fault(spec).empty());
     REQUIRE(::setenv("SRISP_MAX_MEGAPIXELS", "3", 1) == 0);
     CHECK(fault(spec).find("the limit of 3 million") != std::string::npos);
-    for (const char* const nonsense : { "", "0", "-1", "many", "5000x" }) {
-        REQUIRE(::setenv("SRISP_MAX_MEGAPIXELS", nonsense, 1) == 0);
-        CHECK(fault(spec).find("the limit of 2000 million") != std::string::npos);
+    REQUIRE(::setenv("SRISP_MAX_MEGAPIXELS", "", 1) == 0);
+    CHECK(fault(spec).find("the limit of 2000 million") != std::string::npos);
+    for (const std::string nonsense : { "0", "-1", "many", "5000x", "1000001", "99999999999999999999" }) {
+        REQUIRE(::setenv("SRISP_MAX_MEGAPIXELS", nonsense.c_str(), 1) == 0);
+        CHECK(fault(tiled(64, 48)) == "cannot be read: SRISP_MAX_MEGAPIXELS in the environment is '" + nonsense +
+                                          "'; a whole number from 1 to 1000000 is possible");
     }
     ::unsetenv("SRISP_MAX_MEGAPIXELS");
 }

@@ -231,6 +231,8 @@ TEST_CASE("Floating point DNGs work: mosaic and LinearRaw, of 32 bits")
 
     rgb.fill_float([](int x, int y, int s) { return x == 7 && y == 11 && s == 2 ? NAN : 0.5f; }, 3);
     CHECK(refusal(rgb.bytes()).find("NaN, infinity or wrong data") != std::string::npos);
+    rgb.set(256, T::kLong, { 10000 }).set(257, T::kLong, { 10000 });
+    CHECK(refusal(rgb.bytes()) == "floating point DNG of 300000000 values, the limit is 268435456");
 }
 
 TEST_CASE("Floating point DNGs work compressed: Deflate with the float predictor, tiles, half floats")

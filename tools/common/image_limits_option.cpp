@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image_limits_option.h"
+
+#include <charconv>
+#include <cstdlib>
+
+#include "base/shown_text.h"
+#include "failure.h"
+
+namespace srisp::tool {
+
+void describe_image_limits(CLI::App& app)
+{
+    app.add_option_function<std::string>("--max-megapixels", set_max_megapixels);
+}
+
+void set_max_megapixels(const std::string& text)
+{
+    constexpr int kMost = 1'000'000;
+    int number = 0;
+    const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (failed != std::errc() || end != text.data() + text.size() || number < 1 || number > kMost)
+        fail_usage("--max-megapixels '" + shown_text(text) + "' is not a whole number from 1 to 1000000");
+    ::setenv("SRISP_MAX_MEGAPIXELS", text.c_str(), 1);
+}
+
+} // namespace srisp::tool
