@@ -57,6 +57,8 @@ OutputFile::OutputFile(std::string path) : m_path(std::move(path)), m_device(is_
 
 int OutputFile::open()
 {
+    if (!m_device)
+        remove_leftover_files(m_path);
     const int descriptor = m_device ? open_device_output(m_path) : open_nameless(m_path);
     if (descriptor >= 0)
         return descriptor;
@@ -64,7 +66,6 @@ int OutputFile::open()
         fail("cannot be opened");
         return -1;
     }
-    remove_leftover_files(m_path);
     const Expected<Unfinished> made = make_unfinished_file(m_path);
     if (!made) {
         m_error = "'" + m_path + "' cannot be created: " + made.error().message;

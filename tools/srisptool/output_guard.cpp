@@ -67,7 +67,7 @@ void report_failure(int file)
 void note_failure(int file)
 {
     const int saved = errno;
-    const bool no_space = saved == ENOSPC || saved == EDQUOT || saved == EFBIG || saved == EIO;
+    const bool no_space = saved == ENOSPC || saved == EDQUOT || saved == EFBIG || saved == EIO || saved == EROFS;
     int none = 0;
     if (no_space && file > STDERR_FILENO && write_error.compare_exchange_strong(none, saved))
         report_failure(file);
@@ -138,6 +138,14 @@ GUARD_OPEN(open64)
     }
 GUARD_FOPEN(fopen)
 GUARD_FOPEN(fopen64)
+
+/// Our own writer of DNG files gives them a name when they are complete.
+GUARDED int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags)
+{
+    static const auto next = original<int(int, const char*, int, const char*, int)>("linkat");
+    list_output(to);
+    return next(from_folder, from, to_folder, to, flags);
+}
 
 GUARDED ssize_t write(int file, const void* data, size_t size)
 {

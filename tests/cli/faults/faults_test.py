@@ -90,7 +90,7 @@ class Sweeper:
         """What is wrong with what a run that met a fault did; "": nothing."""
         wrong = []
         told = messages(said)
-        names = [*tool.outputs, "TMPDIR", str(place / "tmp"), "tmp/", *([Path(path).name, path] if path else [""])]
+        names = [*(Path(output).stem for output in tool.outputs), "TMPDIR", str(place / "tmp"), "tmp/", *([Path(path).name, path] if path else [""])]
         if code == 0:
             if snapshot(place, tool) != self.expected[tool.name]:
                 wrong.append("exit code 0, another result")

@@ -149,14 +149,17 @@ def snapshot(place, tool):
 def left_behind(place):
     """What no run may leave: hidden and temporary files."""
     return [str(path.relative_to(place)) for folder in ("out", "tmp") for path in (place / folder).rglob("*")
-            if folder == "tmp" or path.name.startswith(".") or ".temp" in path.name]
+            if folder == "tmp" or re.search(UNFINISHED, path.name)]
+
+
+UNFINISHED = r"(^|/)\.|\.[0-9a-f]{8}\.temp\."  # ours, and oiiotool's: what the next run removes
 
 
 def broken_files(place, tool, expected, before):
     """Files that are neither as before, nor complete, nor a journal."""
     return [name for name, content in snapshot(place, tool).items()
             if content not in (expected.get(name), before.get(name)) and not re.search(tool.journals, name)
-            and not tool.stream and not re.search(r"(^|/)\.", name)]
+            and not tool.stream and not re.search(UNFINISHED, name)]
 
 
 def messages(said):
