@@ -26,12 +26,17 @@ Status store(const std::string& path, const std::vector<unsigned char>& bytes)
     return error == 0 ? Status() : Status(Error{ std::strerror(error) });
 }
 
+std::string reason_of(const std::string& told)
+{
+    const std::string reason = shown_reason(told);
+    return reason.empty() ? "its writer does not say why" : reason;
+}
+
 Status write_file(OIIO::ImageOutput& output, const std::string& path, const OIIO::ImageSpec& spec, const float* pixels)
 {
     if (output.open(path, spec) && output.write_image(OIIO::TypeFloat, pixels) && output.close())
         return {};
-    const std::string reason = shown_reason(output.geterror());
-    return Error{ reason.empty() ? "its writer does not say why" : reason };
+    return Error{ reason_of(output.geterror()) };
 }
 
 Error write_error(const std::string& path, const std::string& reason)
@@ -46,7 +51,7 @@ Status Image::save(const std::string& path, OIIO::TypeDesc type) const
     return guarded("image", path, [&]() -> Status {
         auto output = OIIO::ImageOutput::create(path, nullptr, plugins_beside());
         if (!output)
-            return write_error(path, shown_reason(OIIO::geterror()));
+            return write_error(path, reason_of(OIIO::geterror()));
         NamedOutput file(path);
         Status written = file.created();
         if (written && output->supports("ioproxy")) {
