@@ -96,7 +96,7 @@ class Sweeper:
                 wrong.append("exit code 0, another result")
         elif code != 1:
             wrong.append(f"exit code {code}")
-        elif not told or len(told) > 1 and not tool.name.startswith("batch_"):  # which has one for each photo
+        elif not told or len(told) > 1 and not tool.name.startswith(("batch", "eval", "pack")):  # those have one for each photo
             wrong.append(f"{len(told)} messages")
         elif not any(name in told[0] for name in names):
             wrong.append("the message names no file")

@@ -23,7 +23,7 @@ class Tool:
     journals: str = "^$"  # names of files that keep what was done when a run fails
     varies: str = "^$"  # names of files that differ from run to run (times); a good run has them
     environment: dict = field(default_factory=dict)
-    stream: bool = False  # its output is a stream, which what failed leaves as far as it came
+    stream: bool = False  # its output is stdout, of which what failed leaves a part
 
 
 def tools_of(build):
@@ -45,8 +45,7 @@ def tools_of(build):
         Tool("develop_exr", [srisptool, "../in/raw.exr", "--srisp-develop", "ACEScg", "-o", "out/aces.exr"], ["aces.exr"]),
         Tool("sensor_dng", [*unprocess, "--srisp-mosaic", "--srisp-noise", "reference", "-o", "out/raw.dng"], ["raw.dng"]),
         Tool("parameters", [*unprocess, "--srisp-save-params", "out/look.json", "-o", "out/raw.exr"], ["look.json", "raw.exr"]),
-        Tool("parameters_stdout", ["sh", "-c", f"exec {srisptool} ../in/photo.jpg --srisp-params ../in/reference.dng >out/look.json"],
-             ["look.json", "stdout", "standard output"], stream=True),
+        Tool("parameters_stdout", [srisptool, "../in/photo.jpg", "--srisp-params", "../in/reference.dng"], ["stdout"], stream=True),
         Tool("bake_clf", [bake, "--reference", "../in/reference.dng", "--lut-size", "5", "-q", "-o", "out/look"],
              ["look.unprocess.clf", "look.process.clf", "look.develop.clf"]),
         Tool("bake_cube", [bake, "--params", "../in/look.json", "--lut-size", "5", "-q", "-o", "out/look.cube"], ["look.cube"]),
@@ -59,7 +58,7 @@ def tools_of(build):
              ["report.html", "scores.json", "scores.csv"], journals=r"unfinished$|^scores|^report"),
         Tool("eval_compare", [evaluate, "compare", "../in/scores.json", "../in/scores.json", "--method", "upi=default", "--json", "out/compare.json"],
              ["compare.json"]),
-        Tool("pack", [str(bins / "srisppack"), "../in/photos", "-o", "out/pack", "--size", "32", "--crops", "1", "--replace", "-q"],
+        Tool("pack", [str(bins / "srisppack"), "../in/photos", "-o", "out/pack", "--size", "32", "--crops", "1", "--strict", "--replace", "-q"],
              ["pack"], before="packed"),
         Tool("dng_plugin", ["oiiotool", "../in/raw.exr", "-d", "uint16", "-o", "out/raw.dng"], ["raw.dng"],
              environment={"OIIO_LIBRARY_PATH": str(Path(build) / "lib" / "srisp")}),
@@ -122,8 +121,9 @@ class Workplace:
         """Exit code (or "hangs") and what it said on stderr. around: words before the command."""
         variables = {**os.environ, **tool.environment, **(environment or {}), "TMPDIR": str(place / "tmp")}
         variables.pop("SRISP_BAKE_PATH", None)
-        process = subprocess.Popen([*around, *tool.command], cwd=place, env=variables, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True)
+        with open(place / "out" / tool.outputs[0] if tool.stream else os.devnull, "wb") as stdout:
+            process = subprocess.Popen([*around, *tool.command], cwd=place, env=variables, stdin=subprocess.DEVNULL,
+                                       stdout=stdout, stderr=subprocess.PIPE, start_new_session=True)
         try:
             _, said = process.communicate(timeout=LONGEST)
             return process.returncode, said.decode(errors="replace")
@@ -165,7 +165,7 @@ def broken_files(place, tool, expected, before):
 def messages(said):
     """Without warnings, notes, and what Python and oiiotool say beside their messages; oiiotool itself warns in many words."""
     told = [line for line in said.splitlines()
-            if line and not re.search(r"^ |^Traceback|^Full command line was|^> |warning|note:|WARNING|left out|^libpng ", line)]
+            if line and not re.search(r"^ |^Traceback|^Full command line was|^> |warning|note:|WARNING|^libpng ", line)]
     return told
 
 
