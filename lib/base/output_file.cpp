@@ -128,13 +128,14 @@ Status OutputFile::finish()
 {
     if (!m_file)
         return Error{ m_error };
-    // A full disk may show only at the flush, the sync or the close.
+    // A full disk may show only at the flush or the sync.
     if (m_error.empty() && (std::fflush(m_file) != 0 || (!m_device && ::fsync(::fileno(m_file)) != 0)))
         fail("cannot be written");
     // Closing ends the lock, so that it comes last.
     if (m_error.empty() && !m_device && !place())
         fail("cannot be renamed from its temporary name");
-    if (std::fclose(std::exchange(m_file, nullptr)) != 0)
+    // What is synced and in its place is written, whatever the close says.
+    if (std::fclose(std::exchange(m_file, nullptr)) != 0 && m_device)
         fail("cannot be written");
     return m_error.empty() ? Status() : Status(Error{ m_error });
 }

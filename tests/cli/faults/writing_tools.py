@@ -56,15 +56,16 @@ def tools_of(build):
         Tool("eval", [evaluate, "half-split", "../in/reference.dng", "--size", "48", "--rendering", "fixed", "-q", "--threads", "1",
                       "--report", "out/report.html", "--json", "out/scores.json", "--csv", "out/scores.csv"],
              ["report.html", "scores.json", "scores.csv"], journals=r"unfinished$|^scores|^report"),
-        Tool("eval_compare", [evaluate, "compare", "../in/scores.json", "../in/scores.json", "--method", "upi=default", "--json", "out/compare.json"],
-             ["compare.json"]),
-        Tool("pack", [str(bins / "srisppack"), "../in/photos", "-o", "out/pack", "--size", "32", "--crops", "1", "--strict", "--replace", "-q"],
-             ["pack"], before="packed"),
+        Tool("eval_compare", [evaluate, "compare", "../in/scores.json", "../in/scores.json", "--method", "upi=default",
+                              "--json", "out/compare.json"], ["compare.json"]),
+        Tool("pack", [str(bins / "srisppack"), "../in/photos", "-o", "out/pack", "--size", "32", "--crops", "1", "--strict",
+                      "--replace", "-q"], ["pack"], before="packed"),
         Tool("dng_plugin", ["oiiotool", "../in/raw.exr", "-d", "uint16", "-o", "out/raw.dng"], ["raw.dng"],
              environment={"OIIO_LIBRARY_PATH": str(Path(build) / "lib" / "srisp")}),
         *[Tool(f"python_{kind}", [PYTHON, "-c", saved + f"image.save('out/raw.{kind}')"], [f"raw.{kind}"], environment=python_path)
           for kind in ("exr", "tif", "png", "jp2")],
-        Tool("python_dng", [PYTHON, "-c", saved + "srisp.write_dng('out/raw.dng', srisp.mosaic(image))"], ["raw.dng"], environment=python_path),
+        Tool("python_dng", [PYTHON, "-c", saved + "srisp.write_dng('out/raw.dng', srisp.mosaic(image))"], ["raw.dng"],
+             environment=python_path),
     ]
     if (bins / "srisptrain").exists():
         tools.append(Tool("train", [str(bins / "srisptrain"), "../in/tiny.json", "-o", "out/trained", "--threads", "1", "-q"],
@@ -93,7 +94,8 @@ class Workplace:
         run("oiiotool", "photo.jpg", "--mulc", "0.8,0.9,1", "-o", "photos/1.jpg")
         run("oiiotool", "photo.jpg", "--mulc", "0.9,0.8,1", "-o", "photos/2.png")
         (inputs / "photos" / "notes.txt").write_text("notes\n")
-        run(bins / "srisptool", "photo.jpg", "--srisp-unprocess", "reference.dng", "--srisp-save-params", "look.json", "-o", "raw.exr")
+        run(bins / "srisptool", "photo.jpg", "--srisp-unprocess", "reference.dng", "--srisp-save-params", "look.json",
+            "-o", "raw.exr")
         (inputs / "config" / "studio.ocio").write_text(STUDIO)
         for shard in ("0/2", "1/2"):  # with the paths that a tool's folder has
             run(bins / "srispbatch", "../in/photos", "--reference", "../in/reference.dng", "-o", "../in/shards/set", "-q",
