@@ -57,6 +57,8 @@ OutputFile::OutputFile(std::string path) : m_path(std::move(path)), m_device(is_
 
 int OutputFile::open()
 {
+    if (!m_device)
+        remove_leftover_files(m_path);
     const int descriptor = m_device ? open_device_output(m_path) : open_nameless(m_path);
     if (descriptor >= 0)
         return descriptor;
@@ -64,7 +66,6 @@ int OutputFile::open()
         fail("cannot be opened");
         return -1;
     }
-    remove_leftover_files(m_path);
     const Expected<Unfinished> made = make_unfinished_file(m_path);
     if (!made) {
         m_error = "'" + m_path + "' cannot be created: " + made.error().message;
@@ -127,13 +128,14 @@ Status OutputFile::finish()
 {
     if (!m_file)
         return Error{ m_error };
-    // A full disk may show only at the flush, the sync or the close.
+    // A full disk may show only at the flush or the sync.
     if (m_error.empty() && (std::fflush(m_file) != 0 || (!m_device && ::fsync(::fileno(m_file)) != 0)))
         fail("cannot be written");
     // Closing ends the lock, so that it comes last.
     if (m_error.empty() && !m_device && !place())
         fail("cannot be renamed from its temporary name");
-    if (std::fclose(std::exchange(m_file, nullptr)) != 0)
+    // What is synced and in its place is written, whatever the close says.
+    if (std::fclose(std::exchange(m_file, nullptr)) != 0 && m_device)
         fail("cannot be written");
     return m_error.empty() ? Status() : Status(Error{ m_error });
 }

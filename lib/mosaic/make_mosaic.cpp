@@ -3,6 +3,7 @@
 
 #include <srisp/mosaic.h>
 
+#include "base/guarded.h"
 #include "base/parallel.h"
 
 namespace srisp {
@@ -26,19 +27,21 @@ void copy_every_second(const float* source, std::ptrdiff_t source_stride, float*
 
 Status make_mosaic(ImageView image, MosaicPlace place, MutablePlaneView target, int threads)
 {
-    if (target.width != image.width || target.height != image.height)
-        return Error{ "a mosaic of " + size_text(target.width, target.height) + " pixels cannot be made of " +
-                      size_text(image.width, image.height) };
-    constexpr int kRows = 32; // of a task
-    const BayerPhase phase = place.phase_here();
-    parallel_tasks((image.height + kRows - 1) / kRows, threads, [&](std::int64_t task) {
-        const int first = int(task) * kRows, last = std::min(first + kRows, image.height);
-        for (int y = first; y < last; ++y)
-            for (int x = 0; x < std::min(2, image.width); ++x)
-                copy_every_second(image.pixel(x, y) + bayer_color(phase, x, y), 2 * image.x_stride, target.pixel(x, y),
-                                  2 * target.x_stride, (image.width - x + 1) / 2);
+    return guarded("mosaic", {}, [&]() -> Status {
+        if (target.width != image.width || target.height != image.height)
+            return Error{ "a mosaic of " + size_text(target.width, target.height) + " pixels cannot be made of " +
+                          size_text(image.width, image.height) };
+        constexpr int kRows = 32; // of a task
+        const BayerPhase phase = place.phase_here();
+        parallel_tasks((image.height + kRows - 1) / kRows, threads, [&](std::int64_t task) {
+            const int first = int(task) * kRows, last = std::min(first + kRows, image.height);
+            for (int y = first; y < last; ++y)
+                for (int x = 0; x < std::min(2, image.width); ++x)
+                    copy_every_second(image.pixel(x, y) + bayer_color(phase, x, y), 2 * image.x_stride,
+                                      target.pixel(x, y), 2 * target.x_stride, (image.width - x + 1) / 2);
+        });
+        return {};
     });
-    return {};
 }
 
 } // namespace srisp

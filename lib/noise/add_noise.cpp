@@ -6,6 +6,7 @@
 
 #include <srisp/noise.h>
 
+#include "base/guarded.h"
 #include "base/parallel.h"
 #include "base/shown_text.h"
 #include "noise/noise_kernel.h"
@@ -66,18 +67,20 @@ Error not_finite(PlaneView plane, MosaicPlace place)
 
 Status add_noise(MutablePlaneView plane, MosaicPlace place, const NoiseModel& noise, std::uint64_t seed, int threads)
 {
-    if (const Status possible = check_noise(noise); !possible)
-        return possible;
-    const RowVariances kinds[2] = { { noise, place.phase, 0 }, { noise, place.phase, 1 } };
-    constexpr int kRows = 16; // of a task
-    std::atomic<bool> finite{ true };
-    parallel_tasks((plane.height + kRows - 1) / kRows, threads, [&](std::int64_t task) {
-        const int first = int(task) * kRows, last = std::min(first + kRows, plane.height);
-        for (int row = first; row < last; ++row)
-            if (!add_row_noise(plane, row, place, kinds[(place.y + row) & 1], seed))
-                finite = false;
+    return guarded("noise", {}, [&]() -> Status {
+        if (const Status possible = check_noise(noise); !possible)
+            return possible;
+        const RowVariances kinds[2] = { { noise, place.phase, 0 }, { noise, place.phase, 1 } };
+        constexpr int kRows = 16; // of a task
+        std::atomic<bool> finite{ true };
+        parallel_tasks((plane.height + kRows - 1) / kRows, threads, [&](std::int64_t task) {
+            const int first = int(task) * kRows, last = std::min(first + kRows, plane.height);
+            for (int row = first; row < last; ++row)
+                if (!add_row_noise(plane, row, place, kinds[(place.y + row) & 1], seed))
+                    finite = false;
+        });
+        return finite ? Status() : Status(not_finite(plane, place));
     });
-    return finite ? Status() : Status(not_finite(plane, place));
 }
 
 } // namespace srisp

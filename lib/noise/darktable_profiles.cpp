@@ -6,6 +6,7 @@
 
 #include <srisp/noise.h>
 
+#include "base/guarded.h"
 #include "base/input_file.h"
 #include "base/json_text.h"
 #include "base/near_names.h"
@@ -159,15 +160,17 @@ Expected<NoiseModel> noise_of(const json& file, const std::string& make, const s
 Expected<NoiseModel> darktable_noise(const std::string& path, const std::string& make, const std::string& model,
                                      double iso)
 {
-    const auto text = read_text_file(path, kLargestProfiles);
-    if (!text)
-        return text.error();
-    const std::string where = "'" + path + "'";
-    const auto file = parse_json_object(*text, where, "file", kLargestProfiles);
-    if (!file)
-        return file.error();
-    const auto noise = noise_of(*file, make, model, iso);
-    return noise ? noise : Expected<NoiseModel>(Error{ where + ": " + noise.error().message });
+    return guarded("noise profiles", path, [&]() -> Expected<NoiseModel> {
+        const auto text = read_text_file(path, kLargestProfiles);
+        if (!text)
+            return text.error();
+        const std::string where = "'" + path + "'";
+        const auto file = parse_json_object(*text, where, "file", kLargestProfiles);
+        if (!file)
+            return file.error();
+        const auto noise = noise_of(*file, make, model, iso);
+        return noise ? noise : Expected<NoiseModel>(Error{ where + ": " + noise.error().message });
+    });
 }
 
 } // namespace srisp

@@ -3,6 +3,7 @@
 
 #include <srisp/noise.h>
 
+#include "base/guarded.h"
 #include "base/shown_text.h"
 #include "noise/philox.h"
 
@@ -19,20 +20,22 @@ Status check_noise(const NoiseModel& noise)
 
 Expected<NoiseModel> profile_noise(const CameraFacts& facts)
 {
-    const std::vector<double>& profile = facts.noise_profile;
-    if (profile.empty())
-        return Error{ "no NoiseProfile" };
-    if (profile.size() != 2 && profile.size() != 6)
-        return Error{ "NoiseProfile of " + std::to_string(profile.size()) + " numbers: 2 or 6 are needed" };
-    NoiseModel noise;
-    for (std::size_t c = 0; c < 3; ++c) {
-        const std::size_t pair = profile.size() == 2 ? 0 : 2 * c;
-        noise.shot[c] = profile[pair];
-        noise.read[c] = profile[pair + 1];
-    }
-    if (const Status possible = check_noise(noise); !possible)
-        return Error{ "NoiseProfile: " + possible.error().message };
-    return noise;
+    return guarded("noise", {}, [&]() -> Expected<NoiseModel> {
+        const std::vector<double>& profile = facts.noise_profile;
+        if (profile.empty())
+            return Error{ "no NoiseProfile" };
+        if (profile.size() != 2 && profile.size() != 6)
+            return Error{ "NoiseProfile of " + std::to_string(profile.size()) + " numbers: 2 or 6 are needed" };
+        NoiseModel noise;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t pair = profile.size() == 2 ? 0 : 2 * c;
+            noise.shot[c] = profile[pair];
+            noise.read[c] = profile[pair + 1];
+        }
+        if (const Status possible = check_noise(noise); !possible)
+            return Error{ "NoiseProfile: " + possible.error().message };
+        return noise;
+    });
 }
 
 NoiseModel upi_noise(std::uint64_t seed)

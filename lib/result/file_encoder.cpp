@@ -7,6 +7,7 @@
 
 #include "base/installed_files.h"
 #include "base/png_orientation.h"
+#include "base/shown_reason.h"
 
 namespace srisp {
 
@@ -49,7 +50,7 @@ Expected<FileEncoder> FileEncoder::create(const std::string& name)
 {
     FileEncoder encoder(OIIO::ImageOutput::create(name, nullptr, plugins_beside()), name);
     if (!encoder.m_output)
-        return Error{ OIIO::geterror() };
+        return Error{ shown_reason(OIIO::geterror()) };
     if (!encoder.m_output->supports("ioproxy") || !encoder.m_output->set_ioproxy(encoder.m_memory.get()))
         return Error{ std::string("OpenImageIO's writer of ") + encoder.m_output->format_name() +
                       " files writes to disks only" };
@@ -60,7 +61,7 @@ Status FileEncoder::written(bool done) const
 {
     if (done)
         return {};
-    const std::string reason = m_output->geterror();
+    const std::string reason = shown_reason(m_output->geterror());
     return Error{ reason.empty() ? "its writer does not say why" : reason };
 }
 

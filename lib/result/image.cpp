@@ -8,6 +8,7 @@
 #include "base/guarded.h"
 #include "base/installed_files.h"
 #include "base/named_output.h"
+#include "base/shown_reason.h"
 #include "result/file_encoder.h"
 
 namespace srisp {
@@ -17,19 +18,25 @@ namespace {
 Status store(const std::string& path, const std::vector<unsigned char>& bytes)
 {
     std::FILE* const file = std::fopen(path.c_str(), "wb");
-    bool stored = file && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() && std::fflush(file) == 0;
-    const int error = errno;
-    if (file && std::fclose(file) != 0)
-        stored = false;
-    return stored ? Status() : Status(Error{ std::strerror(error) });
+    const bool stored =
+        file && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() && std::fflush(file) == 0;
+    int error = stored ? 0 : errno;
+    if (file && std::fclose(file) != 0 && error == 0)
+        error = errno;
+    return error == 0 ? Status() : Status(Error{ std::strerror(error) });
+}
+
+std::string reason_of(const std::string& told)
+{
+    const std::string reason = shown_reason(told);
+    return reason.empty() ? "its writer does not say why" : reason;
 }
 
 Status write_file(OIIO::ImageOutput& output, const std::string& path, const OIIO::ImageSpec& spec, const float* pixels)
 {
     if (output.open(path, spec) && output.write_image(OIIO::TypeFloat, pixels) && output.close())
         return {};
-    const std::string reason = output.geterror();
-    return Error{ reason.empty() ? "its writer does not say why" : reason };
+    return Error{ reason_of(output.geterror()) };
 }
 
 Error write_error(const std::string& path, const std::string& reason)
@@ -44,7 +51,7 @@ Status Image::save(const std::string& path, OIIO::TypeDesc type) const
     return guarded("image", path, [&]() -> Status {
         auto output = OIIO::ImageOutput::create(path, nullptr, plugins_beside());
         if (!output)
-            return write_error(path, OIIO::geterror());
+            return write_error(path, reason_of(OIIO::geterror()));
         NamedOutput file(path);
         Status written = file.created();
         if (written && output->supports("ioproxy")) {

@@ -82,7 +82,7 @@ void BatchReport::failed(const BatchSummary& summary, const ordered_json& failur
 {
     if (m_json) {
         event("failed", failure);
-    } else if (!m_quiet) {
+    } else {
         m_line.wipe();
         std::fprintf(stderr, "srispbatch: %s\n", failure["error"].get<std::string>().c_str());
     }

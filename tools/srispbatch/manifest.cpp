@@ -18,6 +18,7 @@
 #include "base/json_text.h"
 #include "base/output_file.h"
 #include "base/shown_text.h"
+#include "base/write_all.h"
 
 namespace srisp::tool {
 
@@ -96,6 +97,24 @@ std::string plan_path(const std::string& folder)
     return (fs::path(folder) / "plan.txt").string();
 }
 
+/// Which record of a result is the last: in one file the later line, whatever clocks said meanwhile; of two files the
+/// one with the later time.
+class LastRecord {
+public:
+    bool is_older(const std::string& file, std::int64_t time)
+    {
+        if (file != m_file && time < m_time)
+            return true;
+        m_file = file;
+        m_time = time;
+        return false;
+    }
+
+private:
+    std::string m_file;
+    std::int64_t m_time = -1;
+};
+
 } // namespace
 
 std::string manifest_folder(const std::string& output)
@@ -128,17 +147,14 @@ void for_each_record(
 Manifest::Manifest(const std::string& output, const std::string& shard_name)
     : m_folder(manifest_folder(output)), m_shard_name(shard_name)
 {
-    std::map<std::string, std::int64_t> times;
-    for_each_record(output, [&](const ordered_json& line, const std::string&, std::size_t) {
+    std::map<std::string, LastRecord> last;
+    for_each_record(output, [&](const ordered_json& line, const std::string& file, std::size_t) {
         ManifestEntry entry{ text_of(line, "output"),         text_of(line, "settings"),
                              text_of(line, "reference"),      text_of(line, "photo_hash"),
                              text_of(line, "reference_hash"), std::uint64_t(number_of(line, "bytes")),
                              text_of(line, "output_hash") };
-        std::int64_t& last = times.emplace(entry.output, -1).first->second;
-        const std::int64_t time = number_of(line, "time");
-        if (time < last)
+        if (last[entry.output].is_older(file, number_of(line, "time")))
             return;
-        last = time;
         m_entries[entry.output] = std::move(entry);
     });
 }
@@ -170,7 +186,8 @@ void Manifest::append(const ordered_json& line)
         if (size > 0 && ::pread(m_file, &last, 1, size - 1) == 1 && last != '\n')
             text = "\n" + text;
     }
-    if (m_file < 0 || ::write(m_file, text.data(), text.size()) != ssize_t(text.size()))
+    const auto write = [this](const char* data, std::size_t size) { return ::write(m_file, data, size); };
+    if (m_file < 0 || !write_all(text, write))
         fail("manifest '" + path + "' cannot be written: " + std::strerror(errno));
 }
 
@@ -242,17 +259,16 @@ std::size_t merge_manifests(const std::string& output)
 {
     const std::string folder = manifest_folder(output);
     struct Last {
-        std::int64_t time = -1;
+        LastRecord record;
         std::string text;
     };
     std::map<std::string, Last> lines;
     std::error_code none;
     const int lock = fs::is_directory(folder, none) ? lock_folder(folder, LOCK_EX) : -1;
-    for_each_record(output, [&](const ordered_json& line, const std::string&, std::size_t) {
+    for_each_record(output, [&](const ordered_json& line, const std::string& file, std::size_t) {
         Last& last = lines[text_of(line, "output")];
-        const std::int64_t time = number_of(line, "time");
-        if (time >= last.time)
-            last = { time, text_line(line) };
+        if (!last.record.is_older(file, number_of(line, "time")))
+            last.text = text_line(line);
     });
     if (lines.empty())
         fail("folder '" + output + "' has no manifest of srispbatch's");

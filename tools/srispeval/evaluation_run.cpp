@@ -135,9 +135,11 @@ void write_html(const EvalOptions& options, const Evaluation& evaluation, const 
                 const std::vector<const Journal::Entry*>& entries)
 {
     OutputFile file(options.report);
-    require(write_report(
+    const Status made = write_report(
         evaluation, shown_images(evaluation, std::size_t(options.pictures)),
-        [&](std::size_t i) -> Expected<ImagePictures> { return journal.pictures(*entries[i]); }, file));
+        [&](std::size_t i) -> Expected<ImagePictures> { return journal.pictures(*entries[i]); }, file);
+    if (file.good()) // else the file says why
+        require(made);
     if (const Status written = file.finish(); !written)
         fail("report " + written.error().message);
 }

@@ -2,10 +2,10 @@
 #include "photo_rendering.h"
 
 #include <algorithm>
-#include <fstream>
 
 #include "../common/temporary_folder.h"
 #include "base/hashes.h"
+#include "base/output_file.h"
 #include "converter.h"
 #include "reference/embedded_preview.h"
 #include "rendering/test_rendering.h"
@@ -43,7 +43,8 @@ Expected<Pixels> embedded_photo(const std::string& path, const RawPicture& raw)
         return jpeg.error();
     const TemporaryFolder folder;
     const std::string file = (folder.path() / "preview.jpg").string();
-    std::ofstream(file, std::ios::binary).write(jpeg->data(), std::streamsize(jpeg->size()));
+    if (const Status written = write_output_file(file, jpeg->data(), jpeg->size()); !written)
+        return written.error();
     const int width = raw.pixels.width, height = raw.pixels.height, orientation = raw.orientation;
     auto upright = load_photo(file, width, height, 0);
     if (upright || orientation < 5)

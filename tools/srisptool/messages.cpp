@@ -116,6 +116,13 @@ bool is_failed_output(const std::string& line)
     return (begins_with(line, kError + ": -o") && !begins_with(line, kOurWriter)) || begins_with(line, kJpegError);
 }
 
+/// Whether oiiotool tells of a hand-over file of ours that could not be written; `end`: behind its name.
+bool is_failed_hand_over(const std::string& text, std::size_t end)
+{
+    return begins_with(text, kOurWriter) &&
+           (text.compare(end, 12, "' cannot be ") == 0 || contains(text, "could not move temp file"));
+}
+
 } // namespace
 
 std::string Messages::take(std::string_view bytes)
@@ -203,6 +210,9 @@ std::string Messages::error(const std::string& text, const std::optional<Name>& 
                 return ours + reason_for(subject, "", reason);
         return ours + reason;
     }
+    if (is_failed_hand_over(text, name->end))
+        return ours + "a temporary file cannot be written: " + text.substr(text.rfind(": ") + 2) +
+               " (TMPDIR may name another folder)";
     const Subject& subject = *name->subject;
     if (begins_with(text, kMissing))
         return ours + (subject.path.empty() ? subject.command + ": no image before it"

@@ -64,10 +64,12 @@ void report_failure(int file)
         return; // nobody is there to be told
 }
 
-void note_failure(int file)
+/// `lost`: nobody tries again what a signal interrupted.
+void note_failure(int file, bool lost = false)
 {
     const int saved = errno;
-    const bool no_space = saved == ENOSPC || saved == EDQUOT || saved == EFBIG || saved == EIO;
+    const bool no_space = saved == ENOSPC || saved == EDQUOT || saved == EFBIG || saved == EIO || saved == EROFS ||
+                          (lost && saved == EINTR);
     int none = 0;
     if (no_space && file > STDERR_FILENO && write_error.compare_exchange_strong(none, saved))
         report_failure(file);
@@ -139,6 +141,14 @@ GUARD_OPEN(open64)
 GUARD_FOPEN(fopen)
 GUARD_FOPEN(fopen64)
 
+/// Our own writer of DNG files gives them a name when they are complete.
+GUARDED int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags)
+{
+    static const auto next = original<int(int, const char*, int, const char*, int)>("linkat");
+    list_output(to);
+    return next(from_folder, from, to_folder, to, flags);
+}
+
 GUARDED ssize_t write(int file, const void* data, size_t size)
 {
     static const auto next = original<ssize_t(int, const void*, size_t)>("write");
@@ -177,7 +187,7 @@ GUARDED size_t fwrite(const void* data, size_t size, size_t count, FILE* stream)
     static const auto next = original<size_t(const void*, size_t, size_t, FILE*)>("fwrite");
     const size_t written = next(data, size, count, stream);
     if (written < count)
-        note_failure(fileno(stream));
+        note_failure(fileno(stream), true);
     return written;
 }
 
@@ -186,7 +196,7 @@ GUARDED int fflush(FILE* stream)
     static const auto next = original<int(FILE*)>("fflush");
     const int result = next(stream);
     if (result != 0 && stream)
-        note_failure(fileno(stream));
+        note_failure(fileno(stream), true);
     return result;
 }
 

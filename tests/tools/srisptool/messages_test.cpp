@@ -52,6 +52,18 @@ TEST_CASE("a reason that names the file that is at fault stands for itself")
           "srisptool: ERROR: reference '/r.dng': bad\n");
 }
 
+TEST_CASE("a hand-over file that cannot be written is not taken for the photo")
+{
+    const std::string writer = "oiiotool ERROR: -o:datatype=float:bits=0:autocc=0:autotrim=0:dither=0 : ";
+    CHECK(shown(writer + "'/T/1.0.21a53e03.temp.srisp' cannot be created: No space left on device\n") ==
+          "srisptool: ERROR: a temporary file cannot be written: No space left on device (TMPDIR may name another "
+          "folder)\n");
+    CHECK(
+        shown(writer + "oiiotool ERROR: could not move temp file /T/1.0.21a53e03.temp.srisp to /T/1.0.srisp: "
+                       "Input/output error\n") ==
+        "srisptool: ERROR: a temporary file cannot be written: Input/output error (TMPDIR may name another folder)\n");
+}
+
 TEST_CASE("of a sequence the frame is named")
 {
     CHECK(shown("oiiotool ERROR: read : \"/T/4.0012.srisp\": photo '/home/#/s.0012.tif': is damaged\n") ==
