@@ -89,8 +89,8 @@ void make_photos(const SeedFolder& seeds)
     colors.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, int(profile.size())), profile.data());
     colors.attribute("Orientation", 6);
     colors.attribute("Exif:FNumber", 2.8f);
-    for (const char* ending :
-         { "bmp", "dpx", "fits", "gif", "hdr", "ico", "iff", "jp2", "jpg", "png", "ppm", "rla", "sgi", "tga", "webp" })
+    for (const char* ending : { "bmp", "dpx", "avif", "fits", "gif", "hdr", "heic", "ico", "iff", "jp2", "jpg", "png",
+                                "ppm", "rla", "sgi", "tga", "webp" })
         seeds.add("photo", ending, made_image(std::string("a.") + ending, OIIO::TypeUInt8, colors));
     for (const char* compression : { "none", "lzw", "zip", "packbits", "jpeg" }) {
         OIIO::ImageSpec spec;
