@@ -33,9 +33,10 @@ fuzz_one() {
     # LibRaw leaves its JPEG decoder behind where that fails, OpenImageIO a text where a PNG ends (docs/research/upstream.md).
     case $target in photo | raw_*) leaks=0 ;; esac
     code=0
-    TMPDIR=$scratch "$work/$target" -max_total_time="$2" -timeout="${SRISP_FUZZ_TIMEOUT:-5}" -rss_limit_mb=2048 -detect_leaks=$leaks \
-        -max_len=16384 -print_final_stats=1 -artifact_prefix="$work/findings/$target/" \
-        "$work/corpus/$target" "$seeds/$target" >"$work/$target.log" 2>&1 || code=$?
+    TMPDIR=$scratch ASAN_OPTIONS="${ASAN_OPTIONS:-}:detect_leaks=$leaks" "$work/$target" -max_total_time="$2" \
+        -timeout="${SRISP_FUZZ_TIMEOUT:-5}" -rss_limit_mb=2048 -max_len=16384 -print_final_stats=1 \
+        -artifact_prefix="$work/findings/$target/" "$work/corpus/$target" "$seeds/$target" \
+        >"$work/$target.log" 2>&1 || code=$?
     rm -rf "$scratch"
     times >"$work/$target.times" # of this shell, then of what it has run: user and system
     found=-
@@ -43,7 +44,7 @@ fuzz_one() {
         found=$(sed -n 's/.*Test unit written to //p' "$work/$target.log" | tail -n 1)
         found="${found:-no input, see $work/$target.log}"
     fi
-    runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$work/$target.log")
+    runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$work/$target.log" | tail -n 1)
     last=$(grep -E '^#[0-9]+.* cov: ' "$work/$target.log" | tail -n 1)
     cover=$(echo "$last" | sed -n 's/.* cov: \([0-9]*\).*/\1/p')
     corpus=$(echo "$last" | sed -n 's/.* corp: \([0-9]*\).*/\1/p')
