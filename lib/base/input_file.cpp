@@ -33,13 +33,13 @@ Expected<std::string> read_text_file(const std::string& path, std::size_t most)
     const auto file = RegularFile::open(path);
     if (!file)
         return failed(file.error().message);
-    std::string text(most + 1, '\0');
+    if (file->size() > most)
+        return failed("has more than " + std::to_string(most) + " bytes");
+    std::string text(file->size(), '\0');
     const long long count = file->read(text.data(), 0, text.size());
     if (count < 0)
         return failed(std::strerror(errno));
     text.resize(std::size_t(count));
-    if (text.size() > most)
-        return failed("has more than " + std::to_string(most) + " bytes");
     return text;
 }
 

@@ -45,7 +45,7 @@ fuzz_one() {
         found="${found:-no input, see $work/$target.log}"
     fi
     runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$work/$target.log" | tail -n 1)
-    last=$(grep -E '^#[0-9]+.* cov: ' "$work/$target.log" | tail -n 1)
+    last=$(grep -aoE '^#[0-9]+.* cov: [0-9]+ ft: [0-9]+ corp: [0-9]+' "$work/$target.log" | tail -n 1)
     cover=$(echo "$last" | sed -n 's/.* cov: \([0-9]*\).*/\1/p')
     corpus=$(echo "$last" | sed -n 's/.* corp: \([0-9]*\).*/\1/p')
     printf '%-18s %12s %8s %7s  %s\n' "$target" "${runs:-?}" "${cover:-?}" "${corpus:-?}" "$found" >"$work/$target.line"
