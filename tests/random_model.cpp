@@ -2,7 +2,6 @@
 #include "random_model.h"
 
 #include <cmath>
-#include <cstring>
 #include <fstream>
 
 #include <nlohmann/json.hpp>
@@ -13,17 +12,19 @@ using srisp::Tensor;
 
 namespace {
 
-void append(std::string& bytes, float value, const std::string& type)
+void append(std::string& bytes, const std::vector<float>& values, const std::string& type)
 {
-    char raw[4];
-    std::memcpy(raw, &value, 4);
-    if (type == "F32")
-        bytes.append(raw, 4);
-    else if (type == "BF16")
-        bytes.append(raw + 2, 2); // truncated: exact enough for a test model
-    else {
-        const std::uint16_t bits = srisp::half_from_float(value);
-        bytes.append(reinterpret_cast<const char*>(&bits), 2);
+    const char* const raw = reinterpret_cast<const char*>(values.data());
+    if (type == "F32") {
+        bytes.append(raw, 4 * values.size());
+    } else if (type == "BF16") {
+        for (std::size_t i = 0; i < values.size(); ++i)
+            bytes.append(raw + 4 * i + 2, 2); // truncated: exact enough for a test model
+    } else {
+        for (const float value : values) {
+            const std::uint16_t bits = srisp::half_from_float(value);
+            bytes.append(reinterpret_cast<const char*>(&bits), 2);
+        }
     }
 }
 
@@ -143,8 +144,7 @@ std::string ModelFile::bytes() const
     std::string data;
     for (const auto& [name, tensor] : tensors) {
         const std::size_t begin = data.size();
-        for (const float value : tensor.values)
-            append(data, value, type);
+        append(data, tensor.values, type);
         header[name] = { { "dtype", type }, { "shape", tensor.shape }, { "data_offsets", { begin, data.size() } } };
     }
     const std::string text = header.dump();

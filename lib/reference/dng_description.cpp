@@ -206,7 +206,9 @@ Status DngReader::check_storage()
     const std::vector<double> counts = m_tags.values(image(), tiled ? kTileByteCounts : kStripByteCounts);
     if (offsets.empty() || offsets.size() != counts.size())
         return Error{ "DNG without image data" };
+    double all = 0;
     for (std::size_t i = 0; i < offsets.size(); ++i) {
+        all += counts[i];
         if (!(offsets[i] >= 0 && counts[i] >= 0))
             return Error{ "DNG with image data at byte " + shown_number(offsets[i]) + ", " + shown_number(counts[i]) +
                           " bytes long" };
@@ -214,6 +216,9 @@ Status DngReader::check_storage()
             return Error{ "truncated: image data end at byte " + std::to_string(whole_number(offsets[i] + counts[i])) +
                           ", the file has " + std::to_string(m_file.size) };
     }
+    if (all > double(m_file.size)) // a million tiles of the same bytes take hours
+        return Error{ "DNG whose tiles or strips overlap: they have " + shown_number(all) + " bytes, the file " +
+                      std::to_string(m_file.size) };
     if (m_dng.is_float)
         return {}; // libtiff decodes these
     const auto jpeg = jpeg_header(m_file.data.get() + std::size_t(offsets[0]), std::size_t(counts[0]));

@@ -42,11 +42,16 @@ Status check_levels(const RawPixels& pixels)
     for (const auto* values : { &black.pattern, &black.by_column, &black.by_row })
         if (std::any_of(values->begin(), values->end(), [](float v) { return !std::isfinite(v); }))
             return Error{ "a black level is not a finite number" };
-    const double highest = double(largest(black.pattern)) + largest(black.by_column) + largest(black.by_row);
-    for (int c = 0; c < pixels.channels; ++c)
-        if (!(highest < pixels.white[std::size_t(c)]))
+    const auto channels = std::size_t(pixels.channels);
+    for (std::size_t c = 0; c < channels; ++c) {
+        std::vector<float> own;
+        for (std::size_t i = c; i < black.pattern.size(); i += channels)
+            own.push_back(black.pattern[i]);
+        const double highest = double(largest(own)) + largest(black.by_column) + largest(black.by_row);
+        if (!(highest < pixels.white[c]))
             return Error{ "black level " + shown_number(highest) + " is not below white level " +
-                          shown_number(pixels.white[std::size_t(c)]) };
+                          shown_number(pixels.white[c]) };
+    }
     return {};
 }
 

@@ -207,6 +207,11 @@ redone() {
     cmp again.exr "shots/$(sed -n 5p redo/manifest/all.jsonl | sed 's/.*"output":"\([^"]*\).*/\1/')"
 }
 check "one result again, to the bit" redone
+redone_from_damaged_line() {
+    sed -i 's/"photo_hash":"[^"]*"/"photo_hash":3/' redo/manifest/all.jsonl
+    says 1 "has changed since" "$batch" --redo redo/street/4_1.exr
+}
+check "a line whose hash is none is not taken for the photo's" redone_from_damaged_line
 redone_noise() { "$batch" --redo copies/3_1.npy -o again.npy -q && cmp copies/3_1.npy again.npy && "$batch" --redo dngs/2.dng -o again.dng -q && cmp dngs/2.dng again.dng; }
 check "with its noise" redone_noise
 redone_by_srisptool() {

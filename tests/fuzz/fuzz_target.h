@@ -37,6 +37,14 @@ inline void check_message(const std::string& message)
     must_hold(message.find('\n') == std::string::npos, "a message is one line", message);
 }
 
+/// What most values of images are.
+template<class Values> void must_be_in_unit_range(const Values& values, const char* property)
+{
+    for (const float value : values)
+        if (!(value >= 0 && value <= 1))
+            must_hold(false, property, std::to_string(value));
+}
+
 /// Whether there is a value; else the error is checked.
 template<class Result> bool is_accepted(const Result& result)
 {

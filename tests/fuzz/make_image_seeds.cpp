@@ -81,6 +81,35 @@ void make_containers(const SeedFolder& seeds)
                       "iprp\0\0\0\x14ispe\0\0\0\0\0\0\0\x8\0\0\0\6"));
 }
 
+/// One of each kind, and what else is read with a photo.
+void make_photos(const SeedFolder& seeds)
+{
+    OIIO::ImageSpec colors;
+    const auto profile = adobe_rgb();
+    colors.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, int(profile.size())), profile.data());
+    colors.attribute("Orientation", 6);
+    colors.attribute("Exif:FNumber", 2.8f);
+    for (const char* ending : { "bmp", "dpx", "avif", "fits", "gif", "hdr", "heic", "ico", "iff", "jp2", "jpg", "png",
+                                "ppm", "rla", "sgi", "tga", "webp" })
+        seeds.add("photo", ending, made_image(std::string("a.") + ending, OIIO::TypeUInt8, colors));
+    for (const char* compression : { "none", "lzw", "zip", "packbits", "jpeg" }) {
+        OIIO::ImageSpec spec;
+        spec.attribute("compression", compression);
+        seeds.add("photo", std::string("tif_") + compression, made_image("a.tif", OIIO::TypeUInt8, spec));
+    }
+    for (const char* compression : { "none", "rle", "zip", "piz", "pxr24", "b44", "dwaa" }) {
+        OIIO::ImageSpec spec;
+        spec.attribute("compression", compression);
+        seeds.add("photo", std::string("exr_") + compression, made_image("a.exr", OIIO::TypeHalf, spec));
+    }
+    UltraHdrJpeg gain_map;
+    gain_map.width = gain_map.map_width = 8;
+    gain_map.height = gain_map.map_height = 8;
+    seeds.add("photo", "gain_map", gain_map.bytes());
+    seeds.add("photo", "progressive",
+              jpeg_of(32, 24, 3, [](int x, int y, int c) { return (x * 7 + y * 3 + c * 50) % 256; }));
+}
+
 void make_profiles(const SeedFolder& seeds)
 {
     const auto add = [&](const char* name, char kind, const std::vector<unsigned char>& bytes) {
@@ -123,6 +152,7 @@ void make_gain_maps(const SeedFolder& seeds)
 void make_image_seeds(const SeedFolder& seeds)
 {
     make_containers(seeds);
+    make_photos(seeds);
     make_profiles(seeds);
     make_gain_maps(seeds);
 }

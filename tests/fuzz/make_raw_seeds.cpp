@@ -21,7 +21,8 @@ int noise(int x, int y, int s)
 
 void add_raw(const SeedFolder& seeds, const std::string& target, const std::string& name, const std::string& bytes)
 {
-    for (const std::string& one : { target, std::string("raw_formats"), std::string("tiff_tags") })
+    for (const std::string& one :
+         { target, std::string("raw_formats"), std::string("raw_preview"), std::string("tiff_tags") })
         seeds.add(one, name, bytes);
 }
 
@@ -127,7 +128,8 @@ void make_heads(const SeedFolder& seeds)
                                       { "panasonic", literal("IIU\0\x18\0\0\0") },
                                       { "olympus", literal("IIRO\x8\0\0\0") },
                                       { "sigma", "FOVb" } })
-        seeds.add("raw_formats", name, head + rest);
+        for (const char* target : { "raw_formats", "raw_preview" })
+            seeds.add(target, name, head + rest);
 }
 
 } // namespace

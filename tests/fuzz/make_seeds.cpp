@@ -134,7 +134,7 @@ void make_tools(const SeedFolder& seeds)
               "\n"
               R"({"task":"t","images":[],"left_out":[["a","b"]]})"
               "\n");
-    for (const char* target : { "apply", "kernels", "dng_round_trip" })
+    for (const char* target : { "apply", "kernels", "tone_kernels", "dng_round_trip" })
         for (char kind = 0; kind < 5; ++kind) {
             std::string bytes(1, kind);
             for (int i = 0; i < 300; ++i)

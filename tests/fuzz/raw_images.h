@@ -39,12 +39,10 @@ inline void check_raw_image(const RawImage& image)
     const RowScaler scaler(pixels);
     for (int y = 0; y < pixels.height; ++y) {
         scaler.scale(y, row.data());
-        for (const float value : row)
-            must_hold(value >= 0 && value <= 1, "values are in [0,1]", std::to_string(value));
+        must_be_in_unit_range(row, "values are in [0,1]");
     }
     if (is_looked_at_closely(image))
-        for (const float value : raw_thumbnail(pixels).rgb)
-            must_hold(value >= 0 && value <= 1, "a thumbnail's values are in [0,1]", std::to_string(value));
+        must_be_in_unit_range(raw_thumbnail(pixels).rgb, "a thumbnail's values are in [0,1]");
     for (const std::string& note : image.notes)
         check_message(note);
 }

@@ -12,6 +12,7 @@
 #include "base/file_bytes.h"
 #include "base/installed_files.h"
 #include "base/output_file.h"
+#include "base/shown_reason.h"
 #include "config_text.h"
 #include "linear_srgb.h"
 
@@ -256,7 +257,7 @@ FragmentReport add_fragment(const std::string& path, const std::string& output, 
         const bool named = failure.message.rfind("config '", 0) == 0;
         throw Failure{ failure.exit_code, named ? failure.message : where + failure.message };
     } catch (const OCIO::Exception& error) {
-        fail(where + error.what());
+        fail(where + shown_reason(error.what()));
     }
 }
 

@@ -74,7 +74,7 @@ Record find_record(const std::string& text)
         const std::string name = fs::absolute(text).lexically_normal().lexically_relative(found.output).string();
         for_each_record(found.output, [&](const ordered_json& line, const std::string&, std::size_t) {
             if (line.at("output") == name &&
-                (found.line.is_null() || line.value("time", 0) >= found.line.value("time", 0)))
+                (found.line.is_null() || number_of(line, "time") >= number_of(found.line, "time")))
                 found.line = line;
         });
     }
@@ -159,15 +159,15 @@ void redo_result(const BatchOptions& options)
     inputs.add("photo", task.photo.path);
     inputs.add("reference", task.reference);
     require(inputs.check_output(path));
-    if (require(hash_of_file(task.photo.path)) != record.line.value("photo_hash", ""))
+    if (require(hash_of_file(task.photo.path)) != text_of(record.line, "photo_hash"))
         fail("photo '" + task.photo.path + "' has changed since");
-    if (require(load_reference_cached(task.reference))->hash != record.line.value("reference_hash", ""))
+    if (require(load_reference_cached(task.reference))->hash != text_of(record.line, "reference_hash"))
         fail("reference '" + task.reference + "' has changed since");
-    const std::string settings = record.line.value("settings", "");
+    const std::string settings = text_of(record.line, "settings");
     const MakingOptions making = options_of_settings(read_settings(record.output, settings));
     prepare_making(making.format, 1);
     const auto line = require(run_task(task, path, making, settings, true, [](std::uint64_t) {}));
-    if (line["output_hash"] != record.line.value("output_hash", ""))
+    if (line["output_hash"] != text_of(record.line, "output_hash"))
         fail("'" + path + "' is made again, but its bytes are not those that are recorded: another version made them");
     if (!options.quiet)
         std::printf("'%s' is made again, to the bit\n", path.c_str());

@@ -29,18 +29,6 @@ using nlohmann::ordered_json;
 
 const std::string kEnding = ".jsonl", kFailed = "failed", kAll = "all";
 
-std::string text_of(const ordered_json& line, const char* key)
-{
-    const auto found = line.find(key);
-    return found != line.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
-
-std::int64_t number_of(const ordered_json& line, const char* key)
-{
-    const auto found = line.find(key);
-    return found != line.end() && found->is_number_integer() ? found->get<std::int64_t>() : -1;
-}
-
 /// The files of lines in a folder: of what was made, or of what failed.
 std::vector<std::string> record_files(const std::string& folder, bool failed)
 {
@@ -116,6 +104,18 @@ private:
 };
 
 } // namespace
+
+std::string text_of(const ordered_json& line, const char* key)
+{
+    const auto found = line.find(key);
+    return found != line.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+std::int64_t number_of(const ordered_json& line, const char* key)
+{
+    const auto found = line.find(key);
+    return found != line.end() && found->is_number_integer() ? found->get<std::int64_t>() : -1;
+}
 
 std::string manifest_folder(const std::string& output)
 {

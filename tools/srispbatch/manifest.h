@@ -26,6 +26,10 @@ struct ManifestEntry {
 /// The folder of an output folder's records.
 std::string manifest_folder(const std::string& output);
 
+/// A member of a line; "" or -1 where it is missing or something else.
+std::string text_of(const nlohmann::ordered_json& line, const char* key);
+std::int64_t number_of(const nlohmann::ordered_json& line, const char* key);
+
 /// Calls `use` for each whole line of all manifests there, file after file, in the order of their names, with the file
 /// and the line's number from 1. A line that is cut off, as by a power cut, is no line. Throws Failure: one cannot be
 /// read.

@@ -58,7 +58,7 @@ Status append(const std::string& path, const std::string& line)
 Status keep_lines(const std::string& path, std::int64_t step,
                   const std::function<std::int64_t(const std::string&)>& step_of)
 {
-    if (!std::filesystem::exists(path))
+    if (std::error_code error; !std::filesystem::exists(path, error))
         return {};
     const Expected<std::string> text = read_file(path, kMostBytes, "log");
     if (!text)
@@ -101,7 +101,7 @@ Status RunLog::resume_after(std::int64_t step)
 
 Status RunLog::add(const ordered_json& entry)
 {
-    if (!std::filesystem::exists(m_csv_path))
+    if (std::error_code error; !std::filesystem::exists(m_csv_path, error))
         if (Status status = append(m_csv_path, head_line()); !status)
             return status;
     if (Status status = append(m_csv_path, csv_line(entry)); !status)

@@ -62,7 +62,8 @@ Status apply(TrainingRecipe& recipe, const json& object, const std::string& wher
 Status read_into(TrainingRecipe& recipe, const std::string& path, std::vector<std::string>& users)
 {
     const std::string where = "recipe '" + path + "'";
-    const std::string own = fs::weakly_canonical(path).string();
+    std::error_code error; // what cannot be looked up cannot be read either, and that is told below
+    const std::string own = fs::weakly_canonical(path, error).string();
     if (std::find(users.begin(), users.end(), own) != users.end())
         return Error{ where + ": builds on itself" };
     users.push_back(own);
@@ -73,9 +74,10 @@ Status read_into(TrainingRecipe& recipe, const std::string& path, std::vector<st
     if (!object)
         return object.error();
     if (const auto base = object->find("base"); base != object->end()) {
-        if (!base->is_string())
+        const std::string name = base->is_string() ? base->get<std::string>() : std::string();
+        if (name.empty() || shown_text(name, name.size()) != name)
             return Error{ where + ": 'base' must be the name or path of a recipe, has " + shown_json(*base) };
-        const Expected<std::string> file = find_recipe(base->get<std::string>(), path);
+        const Expected<std::string> file = find_recipe(name, path);
         if (!file)
             return Error{ where + ": 'base': " + file.error().message };
         object->erase(base);

@@ -111,8 +111,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Status status = (*applier)->run(source.view(), whole.view(), {});
     fuzz::must_hold(bool(status), "an image is computed", status.error().message);
     if (!odd)
-        for (const float value : whole.values)
-            fuzz::must_hold(value >= 0 && value <= 1, "results are in [0,1]", std::to_string(value));
+        fuzz::must_be_in_unit_range(whole.values, "results are in [0,1]");
     check_region(**applier, source, whole, draws);
     return 0;
 }

@@ -13,8 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         fuzz::must_hold(bytes_of_noise(*noise) == bytes, "noise comes back to the bit");
     if (const auto reference = reference_of_bytes(bytes); fuzz::is_accepted(reference)) {
         fuzz::must_hold(bytes_of_reference(*reference) == bytes, "a reference comes back to the bit");
-        for (const float value : reference->thumbnail.rgb)
-            fuzz::must_hold(value >= 0 && value <= 1, "a thumbnail's values are in [0,1]");
+        fuzz::must_be_in_unit_range(reference->thumbnail.rgb, "a thumbnail's values are in [0,1]");
     }
     // A thumbnail is far longer than what a fuzzer makes, so one is put where the input has room for it.
     if (size < 8)

@@ -121,6 +121,29 @@ void check_samples(const RawPixels& pixels, const Drawn& drawn)
             }
 }
 
+void check_levels_and_filters(const RawPixels& pixels, const Drawn& drawn)
+{
+    const DngImage& image = drawn.image;
+    if (image.planes == 1)
+        fuzz::must_hold(pixels.cfa.letters == image.cfa_pattern, "filters come back");
+    const auto planes = std::size_t(image.planes);
+    for (std::size_t c = 0; c < planes; ++c) {
+        const float white = image.floats ? 1 : float((1u << drawn.options.bits) - 1);
+        fuzz::must_hold(pixels.white[c] == (image.white[c] ? float(image.white[c]) : white), "white levels come back");
+    }
+    for (int y = 0; y < 6; ++y)
+        for (int x = 0; x < 6; ++x)
+            for (std::size_t c = 0; c < planes; ++c) {
+                const auto place = [&](int rows, int columns) {
+                    return std::size_t(y % rows * columns + x % columns) * planes + c;
+                };
+                const float wanted =
+                    image.black.empty() ? 0 : image.black[place(image.black_rows, image.black_columns)];
+                const float black = pixels.black.pattern[place(pixels.black.rows, pixels.black.columns)];
+                fuzz::must_hold(std::fabs(black - wanted) <= 1e-3f + 1e-6f * wanted, "black levels come back");
+            }
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
@@ -143,5 +166,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     fuzz::check_raw_image(*raw);
     check_samples(raw->pixels, drawn);
+    check_levels_and_filters(raw->pixels, drawn);
     return 0;
 }

@@ -21,7 +21,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (const int level : { i / 9, i / 3 % 3, i % 3 })
             colors.push_back(float(channels == 1 ? i % 3 : level) / 2);
     (*transform)->apply(colors.data(), std::int64_t(colors.size() / 3));
-    for (const float value : colors)
-        fuzz::must_hold(value >= 0 && value <= 1, "colours are in [0,1]", std::to_string(value));
+    fuzz::must_be_in_unit_range(colors, "colours are in [0,1]");
     return 0;
 }

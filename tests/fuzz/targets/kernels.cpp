@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kernels on every instruction set that this machine has, held against plain C++.
 #include <algorithm>
-#include <cmath>
 
-#include "force_targets.h"
-#include "fuzz_target.h"
+#include "kernel_check.h"
 #include "kernels/color_blocks.h"
 #include "kernels/convolution.h"
 #include "kernels/pointwise.h"
@@ -12,41 +10,9 @@
 #include "reference/raw_pixels.h"
 
 using namespace srisp;
+using namespace srisp::fuzz;
 
 namespace {
-
-/// Calls `vector`, which fills its argument, for each instruction set; `expected` is what plain C++ makes.
-template<class Vector>
-void check_each_target(const char* kernel, const std::vector<float>& expected, double tolerance, const Vector& vector)
-{
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        force_targets(target);
-        std::vector<float> out(expected.size());
-        vector(out);
-        for (std::size_t i = 0; i < out.size(); ++i) {
-            const double difference = std::fabs(double(out[i]) - double(expected[i]));
-            if (!(difference <= tolerance * std::max(1.0, std::fabs(double(expected[i])))))
-                fuzz::must_hold(false, "kernels are the same as in plain C++",
-                                std::string(kernel) + " on " + hwy::TargetName(target) + ": " + std::to_string(out[i]) +
-                                    " against " + std::to_string(expected[i]));
-        }
-    }
-    force_targets(0);
-}
-
-/// Three planes of `count` pixels with the room that kernels need; only the pixels are taken out again.
-struct Image {
-    std::size_t count;
-    std::vector<float> values;
-
-    explicit Image(std::size_t pixels) : count(pixels), values(3 * (pixels + kRowSlack)) {}
-    Planes planes() { return { values.data(), std::ptrdiff_t(count + kRowSlack) }; }
-    void take(std::vector<float>& out)
-    {
-        for (std::size_t c = 0; c < 3; ++c)
-            std::copy_n(planes().plane(int(c)), count, out.begin() + std::ptrdiff_t(c * count));
-    }
-};
 
 template<class Plain, class Vector>
 void check_planes(const char* name, Image& in, double tolerance, const Plain& plain, const Vector& vector)
@@ -62,24 +28,7 @@ void check_planes(const char* name, Image& in, double tolerance, const Plain& pl
     });
 }
 
-Image drawn_image(fuzz::Draws& draws, float low, float high)
-{
-    Image image(std::size_t(1 + draws.below(70)));
-    for (int c = 0; c < 3; ++c)
-        for (std::size_t x = 0; x < image.count; ++x)
-            image.planes().plane(c)[x] = draws.within(low, high);
-    return image;
-}
-
-Matrix3 drawn_matrix(fuzz::Draws& draws)
-{
-    Matrix3 matrix{};
-    for (std::size_t i = 0; i < 9; ++i)
-        matrix[i] = draws.within(-0.6f, 0.6f) + (i % 4 == 0 ? 1 : 0);
-    return matrix;
-}
-
-void check_pointwise(fuzz::Draws& draws)
+void check_pointwise(Draws& draws)
 {
     Image in = drawn_image(draws, -0.5f, 2);
     const Matrix3 matrix = drawn_matrix(draws);
@@ -96,7 +45,7 @@ void check_pointwise(fuzz::Draws& draws)
         [&](auto... a) { power(a..., exponent, kPowerFloor); });
 }
 
-void check_blocks(fuzz::Draws& draws)
+void check_blocks(Draws& draws)
 {
     ColorBlocks blocks{};
     blocks.color = drawn_matrix(draws);
@@ -118,18 +67,7 @@ void check_blocks(fuzz::Draws& draws)
         [&](auto... a) { before_tone_map(blocks, a...); });
 }
 
-std::vector<float> drawn_values(fuzz::Draws& draws, std::size_t count)
-{
-    std::vector<float> values(count);
-    std::uint32_t state = draws.number<std::uint32_t>();
-    for (float& value : values) {
-        state = state * 1664525 + 1013904223;
-        value = float(int(state >> 8) - (1 << 23)) / float(1 << 23);
-    }
-    return values;
-}
-
-void check_convolution(fuzz::Draws& draws)
+void check_convolution(Draws& draws)
 {
     const int inputs = 1 + draws.below(34), outputs = 1 + draws.below(34), taps = draws.flag() ? 9 : 1;
     const int width = 1 + draws.below(100);
@@ -153,7 +91,7 @@ void check_convolution(fuzz::Draws& draws)
     check_each_target("convolve_row", expected, 3e-5, [&](std::vector<float>& out) { run(convolve_row, out); });
 }
 
-void check_strided(fuzz::Draws& draws)
+void check_strided(Draws& draws)
 {
     const int inputs = 1 + draws.below(40), outputs = kEncoderGroup * (1 + draws.below(2)), size = 1 + draws.below(9);
     const EncoderLayer layer{ inputs, outputs, drawn_values(draws, std::size_t(outputs * inputs * 9)),
@@ -168,7 +106,7 @@ void check_strided(fuzz::Draws& draws)
     });
 }
 
-void check_shorts(fuzz::Draws& draws)
+void check_shorts(Draws& draws)
 {
     const std::size_t count = std::size_t(1 + draws.below(100));
     std::vector<std::uint16_t> source;
@@ -188,9 +126,9 @@ void check_shorts(fuzz::Draws& draws)
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    fuzz::Draws draws(data, size);
-    constexpr void (*kChecks[])(fuzz::Draws&) = { check_pointwise, check_blocks, check_convolution, check_strided,
-                                                  check_shorts };
+    Draws draws(data, size);
+    constexpr void (*kChecks[])(Draws&) = { check_pointwise, check_blocks, check_convolution, check_strided,
+                                            check_shorts };
     kChecks[draws.below(5)](draws);
     return 0;
 }

@@ -20,20 +20,31 @@ using namespace srisp;
 
 namespace {
 
+std::string big(std::uint32_t value, int bytes)
+{
+    std::string text;
+    for (int i = bytes; i-- > 0;)
+        text += char(value >> 8 * i & 255);
+    return text;
+}
+
 /// Leaf's tags nested so deeply that LibRaw 0.20 runs out of stack.
 std::string deep_file()
 {
-    const auto big = [](std::uint32_t value, int bytes) {
-        std::string text;
-        for (int i = bytes; i-- > 0;)
-            text += char(value >> 8 * i & 255);
-        return text;
-    };
     std::string bytes = std::string("MM\0*", 4) + big(8, 4) + big(1, 2) + big(34310, 2) + big(7, 2) + big(100, 4) +
                         big(26, 4) + big(0, 4);
     for (int i = 0; i < 200'000; ++i)
         bytes += "PKTS" + big(1, 4) + std::string(40, 'x') + big(0, 4);
     return bytes;
+}
+
+/// Kodak's text about the camera, which LibRaw 0.20 copies to 64 bytes whatever its length.
+std::string wordy_file()
+{
+    const std::string text = "Camera body:" + std::string(900, 'A') + "\n";
+    return std::string("MM\0*", 4) + big(8, 4) + big(1, 2) + big(33424, 2) + big(4, 2) + big(1, 4) + big(26, 4) +
+           big(0, 4) + big(1, 2) + big(0x03f1, 2) + big(2, 2) + big(std::uint32_t(text.size()), 4) + big(44, 4) +
+           big(0, 4) + text;
 }
 
 std::string plain_dng()
@@ -88,7 +99,15 @@ TEST_CASE("A reference that was decoded by a program of its own is the one that 
 TEST_CASE("A file that makes LibRaw crash costs a message, as reference, as photo, and where a reference was")
 {
     const ScratchFolder folder;
-    const std::string path = folder.file("deep.nef", deep_file());
+    std::string path;
+    SUBCASE("by nesting without end")
+    {
+        path = folder.file("deep.nef", deep_file());
+    }
+    SUBCASE("by a long text")
+    {
+        path = folder.file("wordy.nef", wordy_file());
+    }
     const auto reference = load_reference(path);
     REQUIRE(!reference);
     CHECK(reference.error().message.rfind("reference '" + path + "': ", 0) == 0);

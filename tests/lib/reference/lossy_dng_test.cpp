@@ -220,6 +220,11 @@ TEST_CASE("Lossy DNGs that are damaged, cut or of other JPEGs than their tags sa
     CHECK(refusal(other.bytes()) ==
           "lossy DNG whose JPEG at x 0, y 0 has 32 x 32 pixels of 3 samples where its tags say 60 x 60 of 3");
 
+    const double start = double(whole.size() - dng.pixels.size()), all = double(dng.pixels.size());
+    other = dng;
+    other.set(324, T::kLong, std::vector<double>(4, start)).set(325, T::kLong, std::vector<double>(4, all));
+    CHECK(refusal(other.bytes()).find("DNG whose tiles or strips overlap: they have ") == 0);
+
     std::string lossless = whole;
     for (std::size_t at = 0; (at = lossless.find("\xff\xc0", at)) != std::string::npos; ++at)
         lossless[at + 1] = '\xc3';

@@ -200,5 +200,10 @@ TEST_CASE("what cannot be extended is said, and nothing is written")
     std::string nameless = std::string(kHead) + kStudio;
     nameless.replace(nameless.find("  aces_interchange: ACES2065-1\n"), 31, "");
     CHECK(failure(nameless).find("--linear-srgb NAME") != std::string::npos);
+    std::string quoted = std::string(kHead) + kStudio; // OpenColorIO quotes names
+    quoted.replace(quoted.find("process_space: ACEScg"), 21, "process_space: \"no\\n\\asuch\"");
+    const std::string reason = failure(quoted);
+    CHECK(reason.find("such") != std::string::npos);
+    CHECK(reason.find_first_of("\n\a") == std::string::npos);
     CHECK(failure_of([&] { add_fragment(folder.path("no.ocio"), "", ""); }).find("no.ocio") != std::string::npos);
 }

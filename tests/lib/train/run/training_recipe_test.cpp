@@ -2,9 +2,12 @@
 #include "train/run/training_recipe.h"
 
 #include <filesystem>
+#include <random>
 
 #include <doctest/doctest.h>
 
+#include "base/shown_text.h"
+#include "fuzz/damage.h"
 #include "lib/train/toy_training.h"
 #include "scratch_folder.h"
 #include "train/run/model_file.h"
@@ -72,6 +75,14 @@ TEST_CASE("broken recipes are refused, each with its own message")
     scratch.file("a.json", R"({"base":"b.json"})");
     CHECK(error_of(scratch.file("b.json", R"({"base":"a.json"})")).find("b.json': builds on itself") !=
           std::string::npos);
+    // Names that the file system refuses, or that end earlier than they seem to.
+    const std::string long_name = "./" + std::string(300, 'a') + ".json";
+    CHECK(error_of(scratch.file("user.json", "{\"base\":\"" + long_name + "\"}")).find("cannot open") !=
+          std::string::npos);
+    std::filesystem::create_symlink("loop.json", scratch.path("loop.json"));
+    CHECK(error_of(scratch.path("loop.json")).find("recipe '" + scratch.path("loop.json") + "': cannot open") == 0);
+    CHECK(refused(R"({"base":"a.json\u0000"})") ==
+          "'base' must be the name or path of a recipe, has \"a.json\\u0000\"");
     scratch.file("broken.json", R"({"sead":1})");
     CHECK(error_of(scratch.file("user.json", R"({"base":"broken.json"})")) ==
           "recipe '" + scratch.path("broken.json") + "': unknown setting 'sead'; did you mean 'seed'?");
@@ -135,6 +146,33 @@ TEST_CASE("the recipe that is written down gives the same settings")
     const Expected<LoadedRecipe> again = load_recipe(scratch.file("r.json", recipe_text(paper->recipe)), {});
     REQUIRE_MESSAGE(again, again.error().message);
     CHECK(recipe_text(again->recipe) == recipe_text(paper->recipe));
+}
+
+TEST_CASE("a damaged recipe is refused in one line, or comes back as it was read")
+{
+    const ScratchFolder scratch;
+    const std::string whole = recipe_text(TrainingRecipe());
+    std::mt19937 random(1);
+    int taken = 0, refused = 0;
+    for (int round = 0; round < 2000; ++round) {
+        const Expected<LoadedRecipe> loaded =
+            load_recipe(scratch.file("r.json", damaged(whole, "-0129.eE\"\\{}[],:\n\xff", whole.size(), random)), {});
+        if (loaded) {
+            ++taken;
+            const std::string text = recipe_text(loaded->recipe);
+            const Expected<LoadedRecipe> again = load_recipe(scratch.file("again.json", text), {});
+            REQUIRE_MESSAGE(again, again.error().message);
+            REQUIRE(recipe_text(again->recipe) == text);
+        } else {
+            ++refused;
+            const std::string& message = loaded.error().message;
+            REQUIRE(message.find("recipe '" + scratch.path("r.json") + "': ") == 0);
+            REQUIRE(message.find('\n') == std::string::npos);
+            REQUIRE(valid_utf8(message) == message);
+        }
+    }
+    CHECK(taken > 0);
+    CHECK(refused > 0);
 }
 
 TEST_CASE("the difference between two recipes is named, but not what does not matter")
