@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/shown_text.h"
 
-#include <cstdio>
+#include <charconv>
 
 namespace srisp {
 
@@ -60,11 +60,20 @@ std::string shown_text(std::string_view text, std::size_t most)
     return shown;
 }
 
-std::string shown_number(double value)
+static std::string number_text(double value, std::chars_format format, int precision)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
+    char text[400]; // of the largest double: 309 digits before the point
+    return { text, std::to_chars(text, text + sizeof text, value, format, precision).ptr };
+}
+
+std::string shown_number(double value, int digits)
+{
+    return number_text(value, std::chars_format::general, digits);
+}
+
+std::string shown_decimals(double value, int decimals)
+{
+    return number_text(value, std::chars_format::fixed, decimals);
 }
 
 std::string valid_utf8(std::string_view text)

@@ -15,8 +15,10 @@ constexpr std::size_t kLongestShown = 120; // bytes
 /// between two characters, with "…" behind it.
 std::string shown_text(std::string_view text, std::size_t most = kLongestShown);
 
-/// A number with up to six digits.
-std::string shown_number(double value);
+/// A number with up to so many significant digits. A point stands before its fraction, whatever a host's locale says.
+std::string shown_number(double value, int digits = 6);
+/// The same with so many digits behind the point.
+std::string shown_decimals(double value, int decimals);
 
 /// The same text where it is UTF-8; bytes that are none as \xff. For messages on their way out: they hold file names,
 /// which may be any bytes, and hosts such as Python take nothing but UTF-8.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <srisp/model.h>
 
@@ -23,9 +22,7 @@ const char kFormat[] = "srisp-parameters-1";
 /// 9 significant digits bring a float back to the bit.
 std::string number(double value)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.9g", value);
-    return text;
+    return shown_number(value, 9);
 }
 
 template<class Values> std::string list(const Values& values)

@@ -2,7 +2,6 @@
 #include <srisp/reference.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 #include <srisp/thumbnail.h>
@@ -10,6 +9,7 @@
 #include "base/file_bytes.h"
 #include "base/guarded.h"
 #include "base/hashes.h"
+#include "base/shown_text.h"
 #include "container/image_file.h"
 #include "raw_file/dng_head.h"
 #include "recipe/reference_pattern.h"
@@ -35,10 +35,8 @@ Status check_brightness(const Thumbnail& thumbnail)
         return {};
     std::vector<float> values = all;
     std::nth_element(values.begin(), values.begin() + place, values.end());
-    char text[128];
-    std::snprintf(text, sizeof text, "is a black frame: 98 %% of its values are at or below %.5f, the limit is %.3f",
-                  double(values[std::size_t(place)]), double(kDarkest));
-    return Error{ text };
+    return Error{ "is a black frame: 98 % of its values are at or below " +
+                  shown_decimals(values[std::size_t(place)], 5) + ", the limit is " + shown_decimals(kDarkest, 3) };
 }
 
 /// All but name and path, from an EXR, or from a TIFF that srisp wrote. `format`: OpenImageIO's name.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <srisp/select.h>
 
@@ -14,11 +13,13 @@ namespace srisp {
 
 namespace {
 
-std::string ev_text(const char* format, double ev)
+std::string ev_text(double ev)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, format, ev);
-    return std::string(text) + " EV";
+    return shown_decimals(ev, 2) + " EV";
+}
+std::string signed_text(double ev, const std::string& number)
+{
+    return (ev < 0 ? "" : "+") + number + " EV";
 }
 
 /// Of a normal distribution with mean 0 and deviation 1.
@@ -37,7 +38,7 @@ std::string brightness_note(const Parameters& parameters)
     constexpr float kUnsure = 0.7f;
     if (!(parameters.brightness_sd_ev.value_or(0.0f) > kUnsure))
         return {};
-    return "the brightness is unsure, its standard deviation is " + ev_text("%.2f", *parameters.brightness_sd_ev) +
+    return "the brightness is unsure, its standard deviation is " + ev_text(*parameters.brightness_sd_ev) +
            "; brightness=EV makes the result that much brighter, or darker below 0";
 }
 
@@ -54,14 +55,14 @@ Status choose_brightness(Parameters& parameters, const Brightness& brightness, s
             const double most = kLargestBrightnessEv;
             ev = std::clamp(draw(seed, photo_name) * *parameters.brightness_sd_ev, -most, most);
             if (notes)
-                notes->push_back("a brightness of " + ev_text("%+.4f", ev) + " was drawn (standard deviation " +
-                                 ev_text("%.2f", *parameters.brightness_sd_ev) + ", seed " + std::to_string(seed) +
-                                 ")");
+                notes->push_back("a brightness of " + signed_text(ev, shown_decimals(ev, 4)) +
+                                 " was drawn (standard deviation " + ev_text(*parameters.brightness_sd_ev) + ", seed " +
+                                 std::to_string(seed) + ")");
         }
         parameters.gain = static_cast<float>(parameters.gain / std::exp2(ev));
         parameters.brightness_ev = static_cast<float>(parameters.brightness_ev + ev);
         if (!(std::isnormal(parameters.gain)))
-            return Error{ "brightness of " + ev_text("%+g", ev) + ": the gain becomes " +
+            return Error{ "brightness of " + signed_text(ev, shown_number(ev)) + ": the gain becomes " +
                           shown_number(parameters.gain) };
         return {};
     });

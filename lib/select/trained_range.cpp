@@ -2,7 +2,8 @@
 #include "select/trained_range.h"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "base/shown_text.h"
 
 namespace srisp {
 
@@ -10,9 +11,7 @@ namespace {
 
 std::string text_of(float value)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", double(value));
-    return text;
+    return shown_number(double(value), 3);
 }
 
 std::string text_of(const std::array<float, 3>& values)

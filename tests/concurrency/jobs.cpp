@@ -44,10 +44,17 @@ std::string digest(const std::vector<float>& values)
 {
     return digest(values.data(), values.size() * sizeof(float));
 }
+/// Of the attributes' own bits: their text depends on the host's locale.
 std::string digest(const OIIO::ImageSpec& spec)
 {
-    const std::string text = spec.to_xml();
-    return digest(text.data(), text.size());
+    std::string all = std::to_string(spec.width) + " " + std::to_string(spec.height) + " " + spec.format.c_str();
+    for (const OIIO::ParamValue& value : spec.extra_attribs) {
+        const bool is_text = value.type().basetype == OIIO::TypeDesc::STRING;
+        all += "\n" + value.name().string() + " ";
+        all += is_text ? value.get_string() : std::string(static_cast<const char*>(value.data()), value.datasize());
+            fprintf(stderr, "@ %s %s\n", value.name().c_str(), value.get_string().c_str());
+    }
+    return digest(all.data(), all.size());
 }
 std::string digest(const Expected<Image>& image)
 {
@@ -94,10 +101,10 @@ std::string read_rows(OIIO::ImageInput& input, int y0, int y1)
 {
     const OIIO::ImageSpec spec = input.spec_dimensions(0, 0);
     std::vector<float> rows(std::size_t(y1 - y0) * std::size_t(spec.width) * std::size_t(spec.nchannels));
-    const bool read = spec.tile_width ? input.read_tiles(0, 0, 0, spec.width, y0, y1, 0, 1, 0, spec.nchannels,
-                                                         OIIO::TypeFloat, rows.data())
-                                      : input.read_scanlines(0, 0, y0, y1, 0, 0, spec.nchannels, OIIO::TypeFloat,
-                                                             rows.data());
+    const bool read =
+        spec.tile_width
+            ? input.read_tiles(0, 0, 0, spec.width, y0, y1, 0, 1, 0, spec.nchannels, OIIO::TypeFloat, rows.data())
+            : input.read_scanlines(0, 0, y0, y1, 0, 0, spec.nchannels, OIIO::TypeFloat, rows.data());
     return read ? digest(rows) : input.geterror();
 }
 

@@ -92,8 +92,9 @@ int main(int argc, char** argv)
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     grown = false; // they keep what was freed
 #endif
-    std::printf("images read: %ld of %zu kinds in %.0f s, threads: %d, wrong: %ld, memory: %.0f -> %.0f MB, peak %.0f MB%s\n",
-                counts.read.load(), jobs.size(), std::chrono::duration<double>(Clock::now() - start).count(), threads,
-                counts.wrong.load(), first_mb, last_mb, memory_mb("VmHWM:"), grown ? ": it grows" : "");
+    std::printf(
+        "images read: %ld of %zu kinds in %.0f s, threads: %d, wrong: %ld, memory: %.0f -> %.0f MB, peak %.0f MB%s\n",
+        counts.read.load(), jobs.size(), std::chrono::duration<double>(Clock::now() - start).count(), threads,
+        counts.wrong.load(), first_mb, last_mb, memory_mb("VmHWM:"), grown ? ": it grows" : "");
     return counts.wrong || grown ? 1 : 0;
 }

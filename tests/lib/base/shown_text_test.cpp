@@ -36,3 +36,13 @@ TEST_CASE("characters are counted, not bytes")
     CHECK(first_characters("%\xff\xfe\xfd", 2) == "%\xff");
     CHECK(first_characters("", 3).empty());
 }
+
+TEST_CASE("numbers have as many digits as are asked for")
+{
+    CHECK(shown_number(1.23456789) == "1.23457");
+    CHECK(shown_number(1e-7, 3) == "1e-07");
+    CHECK(shown_number(double(0.1f), 9) == "0.100000001");
+    CHECK(shown_number(-250) == "-250");
+    CHECK(shown_decimals(1.005, 1) == "1.0");
+    CHECK(shown_decimals(-1e300, 2).size() == 1 + 301 + 3);
+}
