@@ -108,11 +108,11 @@ private:
             m_entries.pop_back();
     }
 
+    /// What is still being made. One that was kept meanwhile stays.
     void forget(const std::string& key)
     {
         const std::lock_guard<std::mutex> lock(m_mutex);
-        if (moved_to_front(key))
-            m_entries.pop_front();
+        m_entries.remove_if([&](const Entry& entry) { return entry.key == key && !made(entry); });
     }
 
     std::mutex m_mutex;

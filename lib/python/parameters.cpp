@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <charconv>
 #include <cmath>
 
 #include <pybind11/numpy.h>
@@ -44,9 +45,8 @@ py::object json_module()
 
 std::string number(double value)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    return text;
+    char text[32]; // a point before the fraction, whatever the locale
+    return { text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 4).ptr };
 }
 
 template<class Values> std::string numbers(const Values& values)

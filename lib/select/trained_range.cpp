@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "select/trained_range.h"
 
-#include "base/printed.h"
-
 #include <algorithm>
+
+#include "base/printed.h"
 
 namespace srisp {
 

@@ -38,7 +38,7 @@ cached() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"; }
 torch=$(cached Torch_DIR)
 printf '%s' "$torch;${torch#/usr};/usr$torch" >"$scratch/hidden"
 [ -n "$(cached SRISP_NO_TRAINER)" ] || : >"$scratch/trainer"
-[ "$(cached SRISP_SANITIZE)" = ON ] || ln -s "$build" "$scratch/objects"
+[ "$(cached SRISP_SANITIZE)" != OFF ] || ln -s "$build" "$scratch/objects"
 
 # Writes the blocks as $scratch/block.<number>.<language>, and fails where one has no known language.
 blocks_of() {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/evaluation/scores.h"
 
-#include "base/printed.h"
-
 #include <cmath>
 
 #include <nlohmann/json.hpp>
+
+#include "base/printed.h"
 
 namespace srisp::train {
 

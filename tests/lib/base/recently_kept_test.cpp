@@ -69,6 +69,17 @@ TEST_CASE("failures and exceptions are not kept")
     CHECK(**kept.get("a", [] { return Expected<Text>(text("A")); }) == "A");
 }
 
+TEST_CASE("what one thread keeps while another fails to make it stays")
+{
+    RecentlyKept<Text> kept(4);
+    CHECK(!kept.get("a", [&]() -> Expected<Text> {
+        kept.keep("a", text("A"));
+        return Error{ "no memory" };
+    }));
+    CHECK(*kept.find("a") == "A");
+    CHECK(**kept.get("a", [] { return Expected<Text>(Error{ "made again" }); }) == "A");
+}
+
 TEST_CASE("the state of a file changes with its content, and is its path where there is none")
 {
     const ScratchFolder folder;
