@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/hashes.h"
-#include "base/printed.h"
-
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -10,6 +8,8 @@
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
+
+#include "base/printed.h"
 
 namespace srisp {
 
