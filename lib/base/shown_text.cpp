@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/shown_text.h"
+
 #include "base/printed.h"
 
 namespace srisp {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "batch_report.h"
 
-#include "base/printed.h"
-
 #include <algorithm>
 #include <cstdio>
+
+#include "base/printed.h"
 
 namespace srisp::tool {
 
