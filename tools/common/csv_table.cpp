@@ -13,7 +13,7 @@ namespace srisp::tool {
 
 namespace {
 
-constexpr std::uint64_t kMaxBytes = std::uint64_t(1) << 28;
+constexpr std::size_t kMaxBytes = std::size_t(1) << 28;
 constexpr std::size_t kMaxColumns = 10000;
 
 /// Takes fields and rows from a text.
@@ -75,7 +75,7 @@ private:
 CsvTable read_csv(const std::string& path)
 {
     const std::string where = "'" + path + "'";
-    const Expected<std::string> text = read_file(path, kMaxBytes, "table");
+    const Expected<std::string> text = read_text_file(path, kMaxBytes);
     if (!text)
         fail(text.error().message);
     CsvReader reader(*text, where);

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uint64_t kMaxBytes = 1 << 26;
+constexpr std::size_t kMaxBytes = 1 << 26;
 constexpr std::size_t kMaxColumns = 10000;
 
 double as_number(const std::string& text, const std::string& where)
@@ -65,7 +65,7 @@ SpectraTable read_spectra_json(const std::string& path)
 {
     SpectraTable table;
     table.where = "'" + path + "'";
-    const Expected<std::string> text = read_file(path, kMaxBytes, "spectra");
+    const Expected<std::string> text = read_text_file(path, kMaxBytes);
     if (!text)
         fail(text.error().message);
     const Expected<json> file = parse_json_object(*text, table.where, "file", kMaxBytes);

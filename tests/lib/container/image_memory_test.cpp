@@ -68,7 +68,7 @@ TEST_CASE("files whose readers hold all pixels are refused before they are opene
 {
     const ScratchFolder folder;
     OIIO::ImageSpec spec(16, 12, 3, OIIO::TypeUInt8);
-    for (const char* const name : { "a.gif", "a.png", "a.jpg", "a.tif", "a.exr", "a.jp2", "a.tga" })
+    for (const char* const name : { "a.gif", "a.png", "a.jpg", "a.tif", "a.exr", "a.tga" })
         write_made(folder.path(name), spec);
     // The size that they say to have, in place.
     std::string progressive = bytes_of(folder.path("a.jpg"));
@@ -89,7 +89,7 @@ TEST_CASE("files whose readers hold all pixels are refused before they are opene
         CAPTURE(name);
         CHECK(opening(folder.path(name)).find("photo: takes 0.384 GB of memory, for 16000000 pixels") == 0);
     }
-    for (const char* const name : { "a.gif", "a.png", "a.jpg", "a.tif", "a.exr", "a.jp2", "a.tga" }) {
+    for (const char* const name : { "a.gif", "a.png", "a.jpg", "a.tif", "a.exr", "a.tga" }) {
         CAPTURE(name);
         CHECK(opening(folder.path(name)) == "");
     }

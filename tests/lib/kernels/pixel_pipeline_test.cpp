@@ -150,7 +150,7 @@ TEST_CASE("what is outside the unit cube counts as its nearest, and what is no n
         const std::vector<float> inside = random_rgb(0, 1);
         on_each_instruction_set([&] {
             const std::unique_ptr<ToneTable> made = table_of(pipeline);
-            for (const ToneTable* const table : { static_cast<const ToneTable*>(nullptr), made.get() })
+            for (const ToneTable* const table : std::initializer_list<const ToneTable*>{ nullptr, made.get() })
                 for (const auto& [odd, counted] : odd_and_counted) {
                     INFO("value ", odd);
                     std::vector<float> with_odd = inside, with_counted = inside;

@@ -90,5 +90,5 @@ TEST_CASE("a table that a stranger has filled with columns, or that is no file, 
     std::filesystem::remove(table);
     REQUIRE(::mkfifo(table.c_str(), 0600) == 0);
     CHECK(failure_of([&] { Manifest::of_folder(scratch.path()); }) ==
-          "1: table: '" + table + "' is not a regular file");
+          "1: '" + table + "': is not a regular file");
 }
