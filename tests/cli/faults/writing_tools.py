@@ -5,7 +5,6 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -37,7 +36,8 @@ def tools_of(build):
                                       "--threads", "2", "--format", kind, "--copy", "*.txt"],
                     ["set"], before="nothing", journals=r"^set/(manifest/.*|.*\.(txt|exr|dng|npy))$") for kind in ("exr", "npy")]
     saved = "import srisp\nimage = srisp.unprocess('../in/photo.jpg', '../in/reference.dng')\n"
-    python_path = {"PYTHONPATH": str(Path(build) / "python"), "PYTHONDONTWRITEBYTECODE": "1"}
+    python_path = {"PYTHONPATH": str(Path(build) / "python"), "PYTHONDONTWRITEBYTECODE": "1",
+                   "OPENBLAS_NUM_THREADS": "1"}  # with more, NumPy's OpenBLAS asks for ever for memory that it cannot get
     tools = [
         *plain,
         Tool("unprocess_jpg", [*unprocess, "--srisp-process", "-o", "out/again.jpg"], ["again.jpg"]),
