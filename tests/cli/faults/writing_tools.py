@@ -36,8 +36,7 @@ def tools_of(build):
                                       "--threads", "2", "--format", kind, "--copy", "*.txt"],
                     ["set"], before="nothing", journals=r"^set/(manifest/.*|.*\.(txt|exr|dng|npy))$") for kind in ("exr", "npy")]
     saved = "import srisp\nimage = srisp.unprocess('../in/photo.jpg', '../in/reference.dng')\n"
-    python_path = {"PYTHONPATH": str(Path(build) / "python"), "PYTHONDONTWRITEBYTECODE": "1",
-                   "OPENBLAS_NUM_THREADS": "1"}  # with more, NumPy's OpenBLAS asks for ever for memory that it cannot get
+    python_path = {"PYTHONPATH": str(Path(build) / "python"), "PYTHONDONTWRITEBYTECODE": "1"}
     tools = [
         *plain,
         Tool("unprocess_jpg", [*unprocess, "--srisp-process", "-o", "out/again.jpg"], ["again.jpg"]),
