@@ -4,7 +4,7 @@
 # every moment; nothing else is left; and each of them succeeds, or says that the place is taken. srispbatch's own folder
 # is in batch_harm_test.sh. Usage: two_writers_test.sh BUILD SOURCE [ROUNDS]
 . "$(dirname "$0")/setup.sh"
-rounds=${3:-4}
+rounds=${3:-2}
 
 # at_once OUTPUT FIRST SECOND COMMAND…: VARIANT in the command stands for what differs between the two. It runs in a folder
 # of its own, so that outputs record the same names.
