@@ -13,9 +13,13 @@ packages="
     libxxhash-dev nlohmann-json3-dev pybind11-dev python3-dev zlib1g-dev
     openimageio-tools python3-openimageio python3-numpy fonts-dejavu-core
 "
-test_packages="chromium chromium-driver clang clang-format-14 darktable dcraw libgl1-mesa-dri libimage-exiftool-perl libraw-bin libclang-rt-14-dev libheif-examples make man-db mount
-    munge mypy opencolorio-tools parallel python3-distributed python3-matplotlib python3-pil python3-pip python3-pytest python3-selenium python3-setuptools
-    python3-torch python3-venv python3-wheel python3-pyopencolorio rawtherapee slurm-wlm strace xauth xvfb"
+test_packages="
+    chromium chromium-driver clang clang-format-14 darktable dcraw libclang-rt-14-dev libgl1-mesa-dri
+    libheif-examples libimage-exiftool-perl libraw-bin libtbb-dev locales make man-db mount munge mypy
+    opencolorio-tools parallel python3-distributed python3-matplotlib python3-pil python3-pip python3-pyopencolorio
+    python3-pytest python3-selenium python3-setuptools python3-torch python3-venv python3-wheel rawtherapee
+    slurm-wlm strace valgrind xauth xvfb
+"
 trainer_packages="libgloo-dev libopenblas0-openmp libtorch-dev"
 case "$#${1:-}" in
     0) packages="$packages $trainer_packages $test_packages" ;;

@@ -2,6 +2,7 @@
 #include "base/installed_files.h"
 
 #include <dlfcn.h>
+#include <link.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -12,15 +13,25 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The file that this code is in; empty if it cannot be told.
-fs::path own_file()
+fs::path find_own_file()
 {
     Dl_info info;
-    if (dladdr(reinterpret_cast<const void*>(&shared_folder), &info) == 0)
+    link_map* loaded = nullptr;
+    if (dladdr1(reinterpret_cast<const void*>(&shared_folder), &info, reinterpret_cast<void**>(&loaded),
+                RTLD_DL_LINKMAP) == 0)
         return {};
     std::error_code error;
-    // Of a program, not a library, dladdr knows only what it was called by.
-    return fs::canonical(info.dli_fname[0] == '/' ? info.dli_fname : "/proc/self/exe", error);
+    // A program has no name there, a library the path by which it was loaded.
+    return fs::canonical(loaded->l_name[0] ? loaded->l_name : "/proc/self/exe", error);
 }
+
+/// At loading, since that path may be a relative one.
+const fs::path& own_file()
+{
+    static const fs::path& file = *new fs::path(find_own_file()); // for threads that outlive other statics
+    return file;
+}
+[[maybe_unused]] const fs::path& found_at_loading = own_file();
 
 /// The nearest folder above `file` that has `relative` in it, with that.
 template<class Test> fs::path find_above(const fs::path& file, const fs::path& relative, const Test& test)

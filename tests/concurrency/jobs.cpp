@@ -52,7 +52,7 @@ std::string digest(const OIIO::ImageSpec& spec)
         const bool is_text = value.type().basetype == OIIO::TypeDesc::STRING;
         all += "\n" + value.name().string() + " ";
         all += is_text ? value.get_string() : std::string(static_cast<const char*>(value.data()), value.datasize());
-            fprintf(stderr, "@ %s %s\n", value.name().c_str(), value.get_string().c_str());
+        fprintf(stderr, "@ %s %s\n", value.name().c_str(), value.get_string().c_str());
     }
     return digest(all.data(), all.size());
 }
