@@ -10,6 +10,7 @@
 #include <libheif/heif.h>
 
 #include "base/file_bytes.h"
+#include "container/exr_header.h"
 #include "container/image_limits.h"
 #include "jpeg/jpeg_segments.h"
 
@@ -113,6 +114,8 @@ Status check_header(const std::string& reader, const std::string& path)
 {
     if (reader == "jpeg")
         return check_jpeg(path);
+    if (reader == "openexr")
+        return check_exr_header(path);
     std::optional<HeaderSize> size;
     if (reader == "heif") {
         size = heif_size(path);

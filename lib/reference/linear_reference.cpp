@@ -15,6 +15,7 @@
 #include "base/shown_reason.h"
 #include "base/shown_text.h"
 #include "container/image_limits.h"
+#include "container/size_in_header.h"
 #include "record/record.h"
 
 namespace srisp {
@@ -173,6 +174,8 @@ Expected<LinearReference> read_linear_reference(const std::string& path, const s
     const auto input = OIIO::ImageInput::create(format);
     if (!input)
         return Error{ "OpenImageIO has no reader for " + format };
+    if (Status status = check_header(format, path); !status)
+        return status.error();
     OIIO::ImageSpec spec;
     if (!input->open(path, spec))
         return Error{ "can't be opened as " + format + ": " + shown_reason(input->geterror()) };
