@@ -128,6 +128,21 @@ TEST_CASE("An attribute of an OpenEXR file that ends beyond the file is refused,
     }
 }
 
+TEST_CASE("A DPX that says to have more of the user's data than the file has bytes is refused")
+{
+    const ScratchFolder folder;
+    const std::string path = folder.path("a.dpx");
+    write_made(path, OIIO::ImageSpec(16, 12, 3, OIIO::TypeUInt8));
+    std::string dpx = bytes_of(path);
+    REQUIRE(dpx.compare(0, 4, "SDPX") == 0);
+    dpx.replace(32, 4, std::string("\x70\0\0\0", 4));
+    write_bytes(path, dpx);
+    CHECK(refusal(path).find("is to have 1879048192 bytes of user data") != std::string::npos);
+    dpx.replace(32, 4, "\xff\xff\xff\xff"); // not known
+    write_bytes(path, dpx);
+    CHECK(ImageFile::open(path, {}, "photo"));
+}
+
 TEST_CASE("an EXR's windows at the ends of the numbers")
 {
     const ScratchFolder folder;
