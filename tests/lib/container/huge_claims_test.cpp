@@ -134,8 +134,8 @@ TEST_CASE("A DPX that says to have more of the user's data than the file has byt
     const std::string path = folder.path("a.dpx");
     write_made(path, OIIO::ImageSpec(16, 12, 3, OIIO::TypeUInt8));
     std::string dpx = bytes_of(path);
-    REQUIRE(dpx.compare(0, 4, "SDPX") == 0);
-    dpx.replace(32, 4, std::string("\x70\0\0\0", 4));
+    REQUIRE(dpx.compare(0, 4, "XPDS") == 0); // the low byte first
+    dpx.replace(32, 4, little_endian(0x70000000));
     write_bytes(path, dpx);
     CHECK(refusal(path).find("is to have 1879048192 bytes of user data") != std::string::npos);
     dpx.replace(32, 4, "\xff\xff\xff\xff"); // not known
