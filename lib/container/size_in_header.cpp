@@ -148,12 +148,33 @@ Status check_jpeg(const std::string& path)
     return check_scans(*frame);
 }
 
+/// OpenImageIO takes as much memory as a DPX says that it has of the user's data.
+Status check_dpx(const std::string& path)
+{
+    constexpr std::size_t kUserSizeAt = 32;
+    constexpr std::uint64_t kUndefined = 0xffffffff;
+    const auto head = read_head(path, kHeadBytes);
+    if (!head)
+        return head.error();
+    if (head->size() < kUserSizeAt + 4)
+        return {};
+    const std::uint64_t size = number(*head, kUserSizeAt, 4, (*head)[0] == 'S');
+    std::error_code ignored;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
+    if (size == kUndefined || size <= bytes)
+        return {};
+    return Error{ "is damaged or truncated: is to have " + std::to_string(size) + " bytes of user data, the file has " +
+                  std::to_string(bytes) };
+}
+
 } // namespace
 
 Status check_header(const std::string& reader, const std::string& path)
 {
     if (reader == "jpeg")
         return check_jpeg(path);
+    if (reader == "dpx")
+        return check_dpx(path);
     if (reader == "openexr")
         return check_exr_header(path);
     std::optional<HeaderSize> size;

@@ -4,7 +4,7 @@
 #   sh tests/fuzz/run.sh --minutes N [TARGET...]   each target so long (all of them where none is named)
 #   sh tests/fuzz/run.sh --seconds N [TARGET...]
 #   sh tests/fuzz/run.sh --totals                  what all runs so far come to
-#   sh tests/fuzz/run.sh --merge [TARGET...]       adds to the seeds the fewest inputs with the corpora's coverage
+#   sh tests/fuzz/run.sh --merge [TARGET...]       adds to the seeds the fewest inputs, up to 512 bytes, that cover what was found
 # Prints a table; exit code 1 where there was a finding: a crash, a leak, more than 5 s or 2 GB for one input. The input is
 # kept in the build folder, SRISP_FUZZ_BUILD_DIR (default build-fuzz), with the log and what each target has found worth
 # keeping so far. SRISP_FUZZ_JOBS targets run at a time (default: as many as there are processors). SRISP_FUZZ_TIMEOUT: other than
@@ -71,7 +71,7 @@ merge_one() {
     target=$1
     mkdir -p "$seeds/$target" "$work/corpus/$target"
     ln -sf "$build/bin/fuzz_targets" "$work/$target"
-    "$work/$target" -merge=1 -set_cover_merge=1 -use_counters=0 -max_len=4096 "$seeds/$target" "$work/corpus/$target" \
+    "$work/$target" -merge=1 -set_cover_merge=1 -use_counters=0 -max_len=512 "$seeds/$target" "$work/corpus/$target" \
         >"$work/$target.log" 2>&1
     printf '%-18s %6s seeds\n' "$target" "$(ls "$seeds/$target" | wc -l)"
 }

@@ -7,6 +7,7 @@
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <srisp/photo.h>
+#include <srisp/reference.h>
 
 #include "lib/container/made_files.h"
 #include "scratch_folder.h"
@@ -105,6 +106,41 @@ TEST_CASE("a TIFF's tags of huge sizes")
     CHECK(whole->rgb == sound->rgb);
     write_bytes(path, with_tag(tiles, tile_length, 0x7ffffff0));
     CHECK(refusal(path) == "photo: has tiles of 16 x 2147483632 x 1 pixels; from 1 to 1048576 a side are possible");
+}
+
+TEST_CASE("An attribute of an OpenEXR file that ends beyond the file is refused, as photo and as reference")
+{
+    const ScratchFolder folder;
+    write_made(folder.path("sound.exr"), OIIO::ImageSpec(16, 12, 3, OIIO::TypeHalf));
+    const std::string sound = bytes_of(folder.path("sound.exr")), path = folder.path("long.exr");
+    const auto with_comment = [&](std::uint32_t size) {
+        const std::string attribute = std::string("comment\0string\0", 15) + little_endian(size);
+        write_bytes(path, sound.substr(0, 8) + attribute + "abcd" + sound.substr(8));
+        return path;
+    };
+    CHECK(ImageFile::open(with_comment(4), {}, "photo"));
+    for (const std::uint32_t size : { std::uint32_t(sound.size()), 1700000000u, 0xffffffffu }) {
+        const std::string told = "its attribute 'comment' is to have " + std::to_string(size) + " bytes, the file has ";
+        CHECK(refusal(with_comment(size)).find(told) != std::string::npos);
+        const auto reference = load_reference(path);
+        REQUIRE(!reference);
+        CHECK(reference.error().message.find(told) != std::string::npos);
+    }
+}
+
+TEST_CASE("A DPX that says to have more of the user's data than the file has bytes is refused")
+{
+    const ScratchFolder folder;
+    const std::string path = folder.path("a.dpx");
+    write_made(path, OIIO::ImageSpec(16, 12, 3, OIIO::TypeUInt8));
+    std::string dpx = bytes_of(path);
+    REQUIRE(dpx.compare(0, 4, "XPDS") == 0); // the low byte first
+    dpx.replace(32, 4, little_endian(0x70000000));
+    write_bytes(path, dpx);
+    CHECK(refusal(path).find("is to have 1879048192 bytes of user data") != std::string::npos);
+    dpx.replace(32, 4, "\xff\xff\xff\xff"); // not known
+    write_bytes(path, dpx);
+    CHECK(ImageFile::open(path, {}, "photo"));
 }
 
 TEST_CASE("an EXR's windows at the ends of the numbers")
