@@ -120,7 +120,8 @@ TEST_CASE("An attribute of an OpenEXR file that ends beyond the file is refused,
     };
     CHECK(ImageFile::open(with_comment(4), {}, "photo"));
     for (const std::uint32_t size : { std::uint32_t(sound.size()), 1700000000u, 0xffffffffu }) {
-        const std::string told = "its attribute 'comment' is to have " + std::to_string(size) + " bytes, the file has ";
+        const std::string told =
+            "its attribute 'comment' says that it has " + std::to_string(size) + " bytes, of which the file holds ";
         CHECK(refusal(with_comment(size)).find(told) != std::string::npos);
         const auto reference = load_reference(path);
         REQUIRE(!reference);
