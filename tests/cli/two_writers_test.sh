@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Two processes that write one output at the same time, many times: what lies there is one's or the other's, whole, at
-# every moment; nothing else is left; and each of them succeeds, or says that the place is taken. srispbatch's own folder
+# Two processes that write one output at the same time, many times: what lies there afterwards is one's or the other's,
+# whole; nothing else is left; and each of them succeeds, or says that the place is taken. srispbatch's own folder
 # is in batch_harm_test.sh. Usage: two_writers_test.sh BUILD SOURCE [ROUNDS]
 . "$(dirname "$0")/setup.sh"
 rounds=${3:-2}

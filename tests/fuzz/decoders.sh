@@ -30,12 +30,9 @@ fetch() {
     [ -d "$work/$1" ] && return
     version=$(dpkg-query -W -f '${source:Version}' "$2")
     mkdir -p "$work/apt/lists/partial" "$work/apt/cache/archives/partial" "$work/fetched"
-    . /etc/os-release
-    for place in "debian $VERSION_CODENAME" "debian-security $VERSION_CODENAME-security"; do
-        printf 'Types: deb-src\nURIs: http://deb.debian.org/%s\nSuites: %s\nComponents: main\nSigned-By: %s\n\n' \
-            "${place% *}" "${place#* }" /usr/share/keyrings/debian-archive-keyring.gpg
-    done >"$work/apt/debian.sources"
-    apt="apt-get -qq -o Dir::Etc::sourcelist=$work/apt/debian.sources -o Dir::Etc::sourceparts=/dev/null \
+    apt-get indextargets --format 'deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $(REPO_URI) $(RELEASE) $(COMPONENT)' \
+        'Created-By: Packages' | sort -u >"$work/apt/sources.list"
+    apt="apt-get -qq -o Dir::Etc::sourcelist=$work/apt/sources.list -o Dir::Etc::sourceparts=/dev/null \
         -o Dir::State::lists=$work/apt/lists -o Dir::Cache=$work/apt/cache"
     (cd "$work/fetched" && $apt update && $apt source "$1=$version") >"$work/$1.log" 2>&1 ||
         { echo "decoders.sh: the sources of $1 $version cannot be fetched, it stays as installed ($work/$1.log)" >&2; return 1; }

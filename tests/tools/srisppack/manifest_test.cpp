@@ -89,6 +89,5 @@ TEST_CASE("a table that a stranger has filled with columns, or that is no file, 
     CHECK(failure_of([&] { Manifest::of_folder(scratch.path()); }).size() < 1000);
     std::filesystem::remove(table);
     REQUIRE(::mkfifo(table.c_str(), 0600) == 0);
-    CHECK(failure_of([&] { Manifest::of_folder(scratch.path()); }) ==
-          "1: '" + table + "': is not a regular file");
+    CHECK(failure_of([&] { Manifest::of_folder(scratch.path()); }) == "1: '" + table + "': is not a regular file");
 }
