@@ -13,7 +13,7 @@
 #include <srisp/expected.h>
 
 // Counts what operator new is asked for, and lets one request fail. Sanitizers bring an operator new of their own.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef SRISP_SANITIZED
 #define SRISP_COUNTS_ALLOCATIONS 0
 #else
 #define SRISP_COUNTS_ALLOCATIONS 1

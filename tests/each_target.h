@@ -16,7 +16,7 @@ template<class Body> void on_each_instruction_set(Body body)
         force_targets(target);
         INFO("instruction set ", std::string(hwy::TargetName(target)));
         body();
-#ifdef __SANITIZE_ADDRESS__
+#ifdef SRISP_SANITIZED
         break; // the sanitizers make kernels 50 times slower; the widest vectors reach furthest past an end
 #endif
     }

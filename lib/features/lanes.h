@@ -9,7 +9,7 @@
 
 /// A function that is compiled for AVX2, too, and chosen by the processor. Same bits: neither contracts to FMA. Nothing
 /// in it may throw, so it takes memory that is there: GCC 12 loses track of where exceptions go from such a function.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(SRISP_SANITIZED)
 #define SRISP_WIDE_LANES __attribute__((target_clones("avx2", "default")))
 #else
 #define SRISP_WIDE_LANES

@@ -143,7 +143,7 @@ void limit_this_process(const std::string& path)
     const std::uintmax_t bytes = std::filesystem::file_size(path, unknown);
     limit(RLIMIT_CPU, kSeconds + (unknown ? 0 : bytes / kBytesPerSecond));
     limit(RLIMIT_CORE, 0);
-#ifndef __SANITIZE_ADDRESS__ // its own memory would not fit in
+#ifndef SRISP_SANITIZED // its own memory would not fit in
     limit(RLIMIT_DATA, kMostMemory);
 #endif
 }

@@ -89,7 +89,7 @@ int main(int argc, char** argv)
     }
     const double last_mb = used_mb();
     bool grown = last_mb > 1.25 * first_mb + 64;
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef SRISP_SANITIZED
     grown = false; // they keep what was freed
 #endif
     std::printf(

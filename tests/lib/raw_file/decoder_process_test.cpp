@@ -173,7 +173,7 @@ TEST_CASE("The program stops a decoding without end, and one that takes all memo
     CHECK(WIFSIGNALED(endless.status));
     CHECK((WTERMSIG(endless.status) == SIGXCPU || WTERMSIG(endless.status) == SIGKILL));
     CHECK(endless.answer.empty());
-#ifndef __SANITIZE_ADDRESS__
+#ifndef SRISP_SANITIZED
     const Served greedy = serve(words, [](DecoderTask, const std::string&) -> Expected<std::string> {
         const std::vector<char> all(std::size_t(6) << 30, 1);
         return std::string(all.begin(), all.begin() + 1);
