@@ -2,11 +2,11 @@
 #include "container/image_limits.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <string>
 
+#include "base/parsed_number.h"
 #include "base/shown_text.h"
 
 namespace srisp {
@@ -102,13 +102,11 @@ Expected<std::uint64_t> most_megapixels()
     const char* const text = std::getenv("SRISP_MAX_MEGAPIXELS");
     if (!text || !*text)
         return kMostMegapixels;
-    std::uint64_t number = 0;
-    const char* const end = text + std::strlen(text);
-    const auto [stop, failed] = std::from_chars(text, end, number);
-    if (stop != end || failed != std::errc() || number < 1 || number > kMillion)
+    const auto number = parsed_number<std::uint64_t>(text);
+    if (!number || *number < 1 || *number > kMillion)
         return Error{ "cannot be read: SRISP_MAX_MEGAPIXELS in the environment is '" + shown_text(text) +
                       "'; a whole number from 1 to 1000000 is possible" };
-    return number;
+    return *number;
 }
 
 } // namespace

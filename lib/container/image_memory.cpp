@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
 
 #include "base/machine_memory.h"
+#include "base/printed.h"
 #include "base/shown_text.h"
 
 namespace srisp {
@@ -23,9 +23,7 @@ constexpr const char* kReadsRows[] = { "bmp", "cineon", "dpx", "fits", "hdr", "j
 
 std::string in_gigabytes(std::uint64_t bytes)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g GB", double(bytes) / 1e9);
-    return text;
+    return printed("%.3g GB", double(bytes) / 1e9);
 }
 
 } // namespace

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image_limits_option.h"
 
-#include <charconv>
 #include <cstdlib>
 
+#include "base/parsed_number.h"
 #include "base/shown_text.h"
 #include "failure.h"
 
@@ -17,9 +17,8 @@ void describe_image_limits(CLI::App& app)
 void set_max_megapixels(const std::string& text)
 {
     constexpr int kMost = 1'000'000;
-    int number = 0;
-    const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (failed != std::errc() || end != text.data() + text.size() || number < 1 || number > kMost)
+    const auto number = parsed_number<int>(text);
+    if (!number || *number < 1 || *number > kMost)
         fail_usage("--max-megapixels '" + shown_text(text) + "' is not a whole number from 1 to 1000000");
     ::setenv("SRISP_MAX_MEGAPIXELS", text.c_str(), 1);
 }

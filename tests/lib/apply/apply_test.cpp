@@ -1,78 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <limits>
 
 #include <doctest/doctest.h>
-#include <srisp/apply.h>
-#include <srisp/model.h>
 
+#include "apply_fixture.h"
 #include "each_target.h"
 #include "image_compare.h"
-#include "random_model.h"
 
 using namespace srisp;
 
 namespace {
-
-struct Image {
-    int width, height, channels = 3;
-    std::vector<float> values = std::vector<float>(std::size_t(width) * height * channels);
-
-    MutableImageView view() { return { values.data(), width, height, channels, std::ptrdiff_t(channels) * width }; }
-};
-
-Image random_image(int width, int height)
-{
-    Image image{ width, height };
-    Random random(width * 1000 + height);
-    for (float& value : image.values)
-        value = random.uniform(0, 1);
-    return image;
-}
-
-/// A model, and parameters of it that look like those of a photo.
-struct Fixture {
-    ScratchFolder folder;
-    std::shared_ptr<const Model> model;
-    Parameters parameters;
-
-    explicit Fixture(int kernel_size = 3)
-    {
-        Expected<std::shared_ptr<const Model>> loaded =
-            Model::load(random_model(kernel_size, 1).write(folder.path("random.safetensors")));
-        REQUIRE_MESSAGE(loaded, (loaded ? "" : loaded.error().message));
-        model = *loaded;
-        parameters.model_hash = model->hash();
-        parameters.tone_weights.fill({ 0.1f, 0.3f, 0.2f, 0.25f, 0.15f });
-        parameters.gamma = 2.2f;
-        parameters.color = { 1.6f, -0.4f, -0.2f, -0.3f, 1.5f, -0.2f, 0.05f, -0.6f, 1.55f };
-        parameters.white_balance = { 2.1f, 1, 1.6f };
-        parameters.gain = 1.3f;
-    }
-
-    std::shared_ptr<const Applier> applier(Direction direction = Direction::reverse,
-                                           Precision precision = Precision::float32) const
-    {
-        Expected<std::shared_ptr<const Applier>> result = Applier::create(*model, parameters, direction, precision);
-        REQUIRE_MESSAGE(result, (result ? "" : result.error().message));
-        return *result;
-    }
-};
-
-ApplyOptions on_threads(int threads)
-{
-    ApplyOptions options;
-    options.threads = threads;
-    return options;
-}
-
-Image applied(const Applier& applier, Image source, int threads = 1)
-{
-    Image target{ source.width, source.height };
-    const Status status = applier.run(source.view(), target.view(), on_threads(threads));
-    REQUIRE_MESSAGE(status, status.error().message);
-    return target;
-}
 
 /// The tone map written down once more as the method says it, in double and without tiles.
 std::vector<double> tone_mapped(const Fixture& fixture, const Image& image, const ModelFile& file)
@@ -363,39 +300,4 @@ TEST_CASE("parameters of another model, or with a singular matrix, are refused")
     applier = Applier::create(*fixture.model, fixture.parameters, Direction::reverse);
     REQUIRE(!applier);
     CHECK(applier.error().message.find("parameters were chosen with model") != std::string::npos);
-}
-
-TEST_CASE("of values outside 0 to 1, and of what is no number, results are those of 0 and 1, neighbours included")
-{
-    const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
-    const std::pair<float, float> odd_and_counted[] = {
-        { nan, 0 }, { infinity, 1 }, { -infinity, 0 }, { -1, 0 }, { 65504, 1 }, { 70000, 1 }, { 3e38f, 1 },
-    };
-    for (const int kernel_size : { 1, 3 }) {
-        Fixture fixture(kernel_size);
-        for (const Direction direction : { Direction::reverse, Direction::forward })
-            on_each_instruction_set([&] {
-                for (const Precision precision : { Precision::float32, Precision::fast }) {
-                    const auto applier = fixture.applier(direction, precision);
-                    for (const auto& [odd, counted] : odd_and_counted) {
-                        CAPTURE(odd);
-                        CAPTURE(kernel_size);
-                        Image with_odd = random_image(19, 21);
-                        with_odd.values[3 * (19 * 10 + 9) + 1] = odd;
-                        Image with_counted = with_odd;
-                        with_counted.values[3 * (19 * 10 + 9) + 1] = counted;
-                        const Image result = applied(*applier, with_odd);
-                        CHECK(result.values == applied(*applier, with_counted).values);
-                        CHECK(std::all_of(result.values.begin(), result.values.end(),
-                                          [](float value) { return value >= 0 && value <= 1; }));
-                    }
-                    Image tiny = random_image(19, 21);
-                    for (float& value : tiny.values)
-                        value *= 1e-39f;
-                    const Image result = applied(*applier, tiny);
-                    CHECK(std::all_of(result.values.begin(), result.values.end(),
-                                      [](float value) { return value >= 0 && value <= 1; }));
-                }
-            });
-    }
 }
